@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Compiler settings of every C++ target of this workspace.
+option(SARN_WERROR "Treat warnings as errors" ON)
+set(SARN_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined; empty for none")
+
+function(sarn_target_defaults target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-psabi)
+  if(SARN_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(SARN_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=${SARN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${SARN_SANITIZE})
+  endif()
+endfunction()
+
+# gtest of a core: no roscore. sarn_add_gtest(name sources... LIBRARIES libs...)
+function(sarn_add_gtest name)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  catkin_add_gtest(${name} ${ARG_UNPARSED_ARGUMENTS} WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  if(TARGET ${name})
+    sarn_target_defaults(${name})
+    target_link_libraries(${name} ${ARG_LIBRARIES})
+  endif()
+endfunction()
