@@ -14,8 +14,9 @@ TrajectoryPoint TimedTrajectory::sample(double t) const {
     end.t = t;
     return end;
   }
-  const auto next = std::upper_bound(points.begin(), points.end(), t,
-                                     [](double time, const TrajectoryPoint& point) { return time < point.t; });
+  const auto next =
+      std::upper_bound(points.begin(), points.end(), t,
+                       [](double time, const TrajectoryPoint& point) { return time < point.t; });
   const TrajectoryPoint& a = *(next - 1);
   const TrajectoryPoint& b = *next;
   const double ratio = (t - a.t) / (b.t - a.t);

@@ -33,9 +33,11 @@ struct GridGeometry {
   }
   /// Row-major index; the cell must lie inside.
   [[nodiscard]] std::size_t index(const CellIndex& cell) const {
-    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(cell.x);
+    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(cell.x);
   }
-  /// Cell that holds the point, which may lie outside the grid; the point must be finite and within int range.
+  /// Cell that holds the point, which may lie outside the grid; the point must be finite and within int
+  /// range.
   [[nodiscard]] CellIndex cellAtUnbounded(double x, double y) const {
     return {static_cast<int>(std::floor((x - origin_x) / resolution)),
             static_cast<int>(std::floor((y - origin_y) / resolution))};
@@ -52,8 +54,8 @@ struct GridGeometry {
     return {origin_x + (cell.x + 0.5) * resolution, origin_y + (cell.y + 0.5) * resolution};
   }
   friend bool operator==(const GridGeometry& a, const GridGeometry& b) {
-    return a.width == b.width && a.height == b.height && a.resolution == b.resolution && a.origin_x == b.origin_x &&
-           a.origin_y == b.origin_y;
+    return a.width == b.width && a.height == b.height && a.resolution == b.resolution &&
+           a.origin_x == b.origin_x && a.origin_y == b.origin_y;
   }
   friend bool operator!=(const GridGeometry& a, const GridGeometry& b) { return !(a == b); }
 };
@@ -70,10 +72,11 @@ struct Grid {
   [[nodiscard]] const T& at(const CellIndex& cell) const { return cells[geometry.index(cell)]; }
 };
 
-/// Calls visit(cell) for each cell that the segment from a to b [m] crosses, in order (Amanatides and Woo 1987),
-/// inside the grid or not; stops when visit returns false.
+/// Calls visit(cell) for each cell that the segment from a to b [m] crosses, in order (Amanatides and Woo
+/// 1987), inside the grid or not; stops when visit returns false.
 template <class Visit>
-void traverseCells(const GridGeometry& grid, const Eigen::Vector2d& a, const Eigen::Vector2d& b, Visit&& visit) {
+void traverseCells(const GridGeometry& grid, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                   Visit&& visit) {
   CellIndex cell = grid.cellAtUnbounded(a.x(), a.y());
   const CellIndex last = grid.cellAtUnbounded(b.x(), b.y());
   const Eigen::Vector2d d = b - a;

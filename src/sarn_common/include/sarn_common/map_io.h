@@ -23,8 +23,8 @@ class MapError : public std::runtime_error {
 /// Occupancy as in nav_msgs/OccupancyGrid: 0 free .. 100 occupied, -1 unknown.
 using OccupancyMap = Grid<std::int8_t>;
 
-/// Loads a ROS map: YAML (image, resolution, origin, negate, occupied_thresh, free_thresh, mode trinary) beside a PGM
-/// (P2, P5) or PNG image, whose top row is the largest y. Throws MapError.
+/// Loads a ROS map: YAML (image, resolution, origin, negate, occupied_thresh, free_thresh, mode trinary)
+/// beside a PGM (P2, P5) or PNG image, whose top row is the largest y. Throws MapError.
 [[nodiscard]] OccupancyMap loadMap(const std::filesystem::path& yaml_file);
 
 /// Writes `base`.yaml and `base`.pgm in map_server's convention. Throws MapError.

@@ -21,7 +21,8 @@
 ///   };
 ///
 /// From that list follow: problems() (every out-of-range value at once), fieldNames(), setFromYaml() and, in
-/// sarn_common_ros, reading the parameter server. Fields are double, int, bool or std::string; a range is inclusive.
+/// sarn_common_ros, reading the parameter server. Fields are double, int, bool or std::string; a range is
+/// inclusive.
 namespace sarn {
 
 struct Range {
@@ -72,7 +73,8 @@ struct HasConflicts : std::false_type {};
 template <class P>
 struct HasConflicts<P, std::void_t<decltype(std::declval<const P&>().conflicts())>> : std::true_type {};
 
-[[nodiscard]] std::vector<std::string> unknownKeys(const YAML::Node& node, const std::vector<std::string>& known);
+[[nodiscard]] std::vector<std::string> unknownKeys(const YAML::Node& node,
+                                                   const std::vector<std::string>& known);
 
 }  // namespace detail
 
@@ -96,7 +98,8 @@ template <class P>
   return visitor.problems;
 }
 
-/// Overwrites the fields that a YAML map names; returns every problem (unknown key, wrong type, range, conflict).
+/// Overwrites the fields that a YAML map names; returns every problem (unknown key, wrong type, range,
+/// conflict).
 template <class P>
 [[nodiscard]] std::vector<std::string> setFromYaml(const YAML::Node& node, P& params) {
   detail::YamlVisitor visitor{node, {}};

@@ -10,7 +10,7 @@ namespace sarn {
 /// A person as perception sees it, in one frame that the owner names.
 struct Person {
   std::string name;
-  std::string group;  // people of one group share this name; empty: alone
+  std::string group;                                   // people of one group share this name; empty: alone
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // [m]
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [m/s]
   double reliability = 1.0;                            // [0, 1]

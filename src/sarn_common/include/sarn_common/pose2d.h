@@ -8,7 +8,8 @@
 
 namespace sarn {
 
-/// A planar pose, and the rigid transform that maps points of the posed frame into the frame the pose is given in.
+/// A planar pose, and the rigid transform that maps points of the posed frame into the frame the pose is
+/// given in.
 struct Pose2D {
   double x = 0.0;      // [m]
   double y = 0.0;      // [m]
@@ -47,7 +48,8 @@ struct Twist2D {
   const double turn = twist.omega * dt;
   const double length = twist.v * dt;
   const double half = 0.5 * turn;
-  const double chord = std::abs(half) < 1e-6 ? length * (1.0 - half * half / 6.0) : length * std::sin(half) / half;
+  const double chord =
+      std::abs(half) < 1e-6 ? length * (1.0 - half * half / 6.0) : length * std::sin(half) / half;
   return {pose.x + chord * std::cos(pose.theta + half), pose.y + chord * std::sin(pose.theta + half),
           wrapAngle(pose.theta + turn)};
 }

@@ -19,8 +19,9 @@ struct TrajectoryPoint {
   [[nodiscard]] Pose2D pose() const { return {x, y, theta}; }
 };
 
-/// Points in strictly increasing time. Between two points v and omega change linearly and the robot moves on the arc
-/// of their means (the planner's motion model: one action is one constant arc with the mean of old and new speeds).
+/// Points in strictly increasing time. Between two points v and omega change linearly and the robot moves on
+/// the arc of their means (the planner's motion model: one action is one constant arc with the mean of old
+/// and new speeds).
 struct TimedTrajectory {
   std::vector<TrajectoryPoint> points;
 
