@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sarn_localization/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include "sarn_common/parameters.h"
+
+namespace sarn_localization {
+namespace {
+
+template <class P>
+void expectShippedYamlMatches(const std::string& file) {
+  const YAML::Node node = YAML::LoadFile(file);
+  P params;
+  EXPECT_TRUE(sarn::setFromYaml(node, params).empty());
+  for (const auto& name : sarn::fieldNames<P>()) EXPECT_TRUE(node[name]) << file << " lacks " << name;
+}
+
+TEST(Parameters, shippedYamlNamesEveryField) {
+  expectShippedYamlMatches<MapServerParams>("config/map_server.yaml");
+  expectShippedYamlMatches<TruthLocalizationParams>("config/truth_localization.yaml");
+}
+
+TEST(Parameters, emptyAndEqualFramesAreProblems) {
+  MapServerParams map;
+  map.frame_id.clear();
+  EXPECT_EQ(sarn::problems(map).size(), 1U);
+  TruthLocalizationParams truth;
+  truth.odom_frame_id = truth.global_frame_id;
+  EXPECT_EQ(sarn::problems(truth).size(), 1U);
+}
+
+}  // namespace
+}  // namespace sarn_localization
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
