@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sarn_common/parameters.h"
+
+namespace timed_path_follower {
+
+struct FollowerParams {
+  // Limits. A little above the planner's speeds, so that the robot can catch up; accelerations equal to the planner's.
+  double min_vel_x = 0.0;      // [m/s] <= 0; below 0 the robot may reverse
+  double max_vel_x = 0.6;      // [m/s]
+  double max_vel_theta = 1.3;  // [rad/s]
+  double acc_lim_x = 1.0;      // [m/s^2]
+  double acc_lim_theta = 2.0;  // [rad/s^2]
+  double control_period = 0.05;  // [s] between calls, used when the time since the last call is unknown
+
+  // Feedback law (Kanayama et al. 1990, Samson 1993).
+  double natural_frequency = 0.8;  // [rad/s] of the longitudinal and of the lateral error at standstill
+  double damping_ratio = 0.9;      // of the lateral error
+  double lateral_gain = 12.0;      // [1/m^2] b: stiffness of the lateral error in proportion to the speed squared
+  double look_ahead = 0.1;         // [s] delay between command and motion that is led by
+
+  // Errors, from the reference pose to the robot.
+  double max_position_error = 0.35;  // [m] more: kDeviated
+  double max_heading_error = 0.8;    // [rad] more: kDeviated
+  double slow_down_error = 0.1;      // [m] from here on the feed-forward is reduced, down to none at max_position_error
+
+  // Goal.
+  double xy_goal_tolerance = 0.15;  // [m]
+  double yaw_goal_tolerance = 0.2;  // [rad]
+  double stopped_vel_x = 0.05;      // [m/s] slower counts as standing
+  double stopped_vel_theta = 0.1;   // [rad/s]
+  double goal_patience = 2.0;       // [s] after the trajectory's end to settle at its last pose before kExpired
+
+  // Obstacle hook.
+  double obstacle_horizon = 1.0;  // [s] of motion that must be free
+  double obstacle_step = 0.1;     // [s] between checked poses
+
+  template <class Self, class Visitor>
+  static void visit(Self& p, Visitor& v) {
+    v("min_vel_x", p.min_vel_x, {-2.0, 0.0});
+    v("max_vel_x", p.max_vel_x, {0.01, 5.0});
+    v("max_vel_theta", p.max_vel_theta, {0.01, 10.0});
+    v("acc_lim_x", p.acc_lim_x, {0.01, 10.0});
+    v("acc_lim_theta", p.acc_lim_theta, {0.01, 50.0});
+    v("control_period", p.control_period, {0.001, 1.0});
+    v("natural_frequency", p.natural_frequency, {0.01, 10.0});
+    v("damping_ratio", p.damping_ratio, {0.1, 5.0});
+    v("lateral_gain", p.lateral_gain, {0.1, 200.0});
+    v("look_ahead", p.look_ahead, {0.0, 1.0});
+    v("max_position_error", p.max_position_error, {0.02, 5.0});
+    v("max_heading_error", p.max_heading_error, {0.05, 3.2});
+    v("slow_down_error", p.slow_down_error, {0.0, 5.0});
+    v("xy_goal_tolerance", p.xy_goal_tolerance, {0.01, 2.0});
+    v("yaw_goal_tolerance", p.yaw_goal_tolerance, {0.01, 3.15});
+    v("stopped_vel_x", p.stopped_vel_x, {0.001, 1.0});
+    v("stopped_vel_theta", p.stopped_vel_theta, {0.001, 2.0});
+    v("goal_patience", p.goal_patience, {0.0, 60.0});
+    v("obstacle_horizon", p.obstacle_horizon, {0.0, 10.0});
+    v("obstacle_step", p.obstacle_step, {0.01, 1.0});
+  }
+  [[nodiscard]] std::vector<std::string> conflicts() const;
+};
+
+}  // namespace timed_path_follower
