@@ -30,17 +30,16 @@ class ContactMonitor {
   struct Params {
     double tolerance = 1e-3;       // [m] a gap this small is a touch
     double release_time = 0.5;     // [s] apart before the same pair can touch anew
-    double standing_speed = 0.01;  // [m/s] and below: the robot stands
-    double standing_turn = 0.05;   // [rad/s] and below
+    double standing_speed = 0.01;  // [m/s] of its centre, and below: the robot stands
   };
 
   ContactMonitor() : ContactMonitor(Params{}) {}
   explicit ContactMonitor(const Params& params) : params_(params) {}
 
-  /// `robot` moves with the velocity it had when the step began (before a wall or a person stopped it);
-  /// `turn_rate` [rad/s] likewise. Appends new contacts to `events`.
-  void update(double time, double dt, const RobotDisc& robot, double turn_rate,
-              const std::vector<PersonState>& people, const StaticMap* map, std::vector<Contact>& events);
+  /// `time` [s] at the end of a step of `dt` [s]; `robot` where the step left it, with the velocity it would
+  /// have had without touching anything. Appends contacts that begin to `events`.
+  void update(double time, double dt, const RobotDisc& robot, const std::vector<PersonState>& people,
+              const StaticMap& map, std::vector<Contact>& events);
   void reset();
 
   /// How long the robot has stood still [s].
@@ -48,6 +47,9 @@ class ContactMonitor {
 
  private:
   [[nodiscard]] bool beginsTouch(double& last_touch, double time) const;
+  void updateWall(double time, const RobotDisc& robot, const StaticMap& map, std::vector<Contact>& events);
+  void updatePerson(double time, const RobotDisc& robot, const PersonState& person,
+                    std::vector<Contact>& events);
 
   Params params_;
   double standing_time_ = 0.0;

@@ -85,6 +85,7 @@ class KobukiBase {
   void checkTimeout();
   void sendCommand();
   void turnWheels();
+  void holdWheels(const sarn::Twist2D& actual);
   void measureCurrents(bool blocked);
   void drainBattery();
   void makePacket(std::uint8_t bumper);
@@ -111,6 +112,7 @@ class KobukiBase {
   sarn::Twist2D target_;                        // what the firmware drives at
   std::array<double, 2> wheel_speed_{};         // [m/s] nominal; left, right
   std::array<double, 2> wheel_acceleration_{};  // [m/s^2]
+  std::array<double, 2> wheel_step_{};          // [m] nominal length rolled in this step
   std::array<double, 2> wheel_travel_{};        // [m] nominal length rolled, what the encoders count
   sarn::Twist2D wanted_;
   sarn::Twist2D twist_;

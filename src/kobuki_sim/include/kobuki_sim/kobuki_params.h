@@ -51,6 +51,7 @@ struct KobukiParams {
   double motor_speed_current = 0.04;         // [A/(m/s)]
   double motor_acceleration_current = 0.01;  // [A/(m/s^2)]
   double motor_blocked_current = 0.4;        // [A] while something holds the robot and the wheels push
+  double over_current = 1.0;                 // [A] of a motor: reported as too much
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {
@@ -84,6 +85,7 @@ struct KobukiParams {
     v("motor_speed_current", p.motor_speed_current, {0.0, 10.0});
     v("motor_acceleration_current", p.motor_acceleration_current, {0.0, 10.0});
     v("motor_blocked_current", p.motor_blocked_current, {0.0, 10.0});
+    v("over_current", p.over_current, {0.0, 100.0});
   }
   [[nodiscard]] std::vector<std::string> conflicts() const;
   /// The same base without any error, noise, delay or quantisation.

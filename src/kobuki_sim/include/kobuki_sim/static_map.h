@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -51,7 +53,12 @@ class StaticMap {
   /// The nearest wall within max_distance [m] of a point.
   [[nodiscard]] std::optional<WallPoint> nearestWall(const Eigen::Vector2d& point, double max_distance) const;
 
-  /// Whether a disc touches no wall.
+  /// Calls visit(cell, closest point of its square, distance [m]) for each occupied cell within `radius` [m]
+  /// of a finite point.
+  template <class Visit>
+  void forEachWallWithin(const Eigen::Vector2d& point, double radius, Visit&& visit) const;
+
+  /// Whether a disc overlaps no wall.
   [[nodiscard]] bool discFree(const Eigen::Vector2d& center, double radius) const;
 
   /// The centre nearest to `center` found at which the disc overlaps no wall, by pushing it out of the cells
@@ -65,8 +72,37 @@ class StaticMap {
   [[nodiscard]] bool segmentFree(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 
  private:
+  /// distanceField() at a point of the grid's closed rectangle [m].
+  [[nodiscard]] double centerDistance(const Eigen::Vector2d& inside) const;
+
   sarn::OccupancyMap map_;
   sarn::Grid<float> distance_;
 };
+
+template <class Visit>
+void StaticMap::forEachWallWithin(const Eigen::Vector2d& point, double radius, Visit&& visit) const {
+  const sarn::GridGeometry& grid = map_.geometry;
+  const auto column = [&](double x) {
+    return static_cast<int>(
+        std::clamp(std::floor((x - grid.origin_x) / grid.resolution), -1.0, grid.width + 0.0));
+  };
+  const auto row = [&](double y) {
+    return static_cast<int>(
+        std::clamp(std::floor((y - grid.origin_y) / grid.resolution), -1.0, grid.height + 0.0));
+  };
+  const int last_x = std::min(grid.width - 1, column(point.x() + radius));
+  const int last_y = std::min(grid.height - 1, row(point.y() + radius));
+  for (int y = std::max(0, row(point.y() - radius)); y <= last_y; ++y) {
+    for (int x = std::max(0, column(point.x() - radius)); x <= last_x; ++x) {
+      if (map_.at({x, y}) != sarn::kMapOccupied) continue;
+      const double low_x = grid.origin_x + x * grid.resolution;
+      const double low_y = grid.origin_y + y * grid.resolution;
+      const Eigen::Vector2d closest(std::clamp(point.x(), low_x, low_x + grid.resolution),
+                                    std::clamp(point.y(), low_y, low_y + grid.resolution));
+      const double distance = (closest - point).norm();
+      if (distance <= radius) visit(sarn::CellIndex{x, y}, closest, distance);
+    }
+  }
+}
 
 }  // namespace kobuki_sim
