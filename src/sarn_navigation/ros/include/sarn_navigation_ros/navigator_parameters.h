@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "lattice_planner/planner_params.h"
+#include "sarn_navigation/navigator_params.h"
+#include "social_costmap/timed_costmap.h"
+#include "timed_path_follower/follower_params.h"
+
+namespace sarn_navigation {
+
+struct NavigatorNodeParams {
+  std::string global_frame = "map";
+  std::string robot_base_frame = "base_footprint";
+  std::string social = "timed";           // timed: people move; frozen: people stand where they are now; off: none
+  double costmap_frequency = 10.0;        // [Hz]
+  double visualization_frequency = 2.0;   // [Hz] simulated time; only while somebody listens
+  bool lockstep = false;                  // the simulation waits for plans that are due
+
+  template <class Self, class Visitor>
+  static void visit(Self& p, Visitor& v) {
+    v("global_frame", p.global_frame);
+    v("robot_base_frame", p.robot_base_frame);
+    v("social", p.social);
+    v("costmap_frequency", p.costmap_frequency, {0.5, 50.0});
+    v("visualization_frequency", p.visualization_frequency, {0.1, 20.0});
+    v("lockstep", p.lockstep);
+  }
+  [[nodiscard]] std::vector<std::string> conflicts() const {
+    if (social == "timed" || social == "frozen" || social == "off") return {};
+    return {"social: must be timed, frozen or off"};
+  }
+};
+
+/// Everything the node is told, one sub-namespace each: navigator, planner, follower, costmap/{...}.
+struct NavigatorConfig {
+  NavigatorNodeParams node;
+  NavigatorParams navigator;
+  lattice_planner::PlannerParams planner;
+  timed_path_follower::FollowerParams follower;
+  social_costmap::CostmapParams costmap;
+};
+
+/// Throws sarn::ParameterError.
+[[nodiscard]] NavigatorConfig readNavigatorConfig(const ros::NodeHandle& private_nh);
+
+}  // namespace sarn_navigation
