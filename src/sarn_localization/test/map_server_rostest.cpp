@@ -4,11 +4,14 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -47,8 +50,9 @@ TEST(MapServer, servesStaticMap) {
 /// Exit code and output of a map_server with these arguments.
 std::pair<int, std::string> runMapServer(const std::string& arguments) {
   const std::string output_file = "/tmp/sarn_map_server_" + std::to_string(getpid());
-  const int status = std::system(  // NOLINT(cert-env33-c)
-      ("rosrun sarn_localization map_server " + arguments + " >" + output_file + " 2>&1").c_str());
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "map_server";
+  const std::string command = program.string() + " " + arguments + " >" + output_file + " 2>&1";
+  const int status = std::system(command.c_str());  // NOLINT(cert-env33-c)
   std::stringstream output;
   output << std::ifstream(output_file).rdbuf();
   std::remove(output_file.c_str());

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "sarn_common/pose2d.h"
 #include "sarn_common_ros/conversions.h"
