@@ -30,9 +30,11 @@ class PersonPath {
 
  private:
   [[nodiscard]] PersonState stateAt(std::size_t index) const;
-  [[nodiscard]] PersonState beyondEnd(double time) const;
+  /// State `duration` [s] after (before, when negative) a predicted one, at its velocity.
+  [[nodiscard]] PersonState extrapolated(std::size_t index, double duration) const;
+  void appendPieces(const PersonState& to, double tolerance, std::vector<PersonState>& states) const;
 
-  const sarn::PersonPrediction& person_;
+  const sarn::PersonPrediction* person_;
   std::size_t usable_;
   double stamp_;
   double time_step_;
