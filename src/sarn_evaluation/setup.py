@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: BSD-3-Clause
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
+
+setup(
+    **generate_distutils_setup(
+        packages=["sarn_evaluation", "sarn_evaluation.metrics", "sarn_evaluation.ros"],
+        package_dir={"": "src"},
+    )
+)
