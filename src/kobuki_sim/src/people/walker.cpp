@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "kobuki_sim/people/walker.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kobuki_sim/people/walking_space.h"
+
+namespace kobuki_sim {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kLookPeriod = 0.5;  // [s] between two looks whether the way ahead is straight
+constexpr double kLeanPeriod = 1.0;  // [s] between two draws of the lean
+constexpr double kStopTime = 0.5;    // [s] in which a person brakes at the last waypoint
+constexpr double kToleranceGrowth =
+    0.2;  // [m/s] somebody who stands on the waypoint makes it reached from farther
+constexpr double kLargestTolerance = 1.5;  // [m]
+
+Vector2d rotated(const Vector2d& v, double angle) { return Eigen::Rotation2Dd(angle) * v; }
+
+}  // namespace
+
+Walker::Walker(Itinerary itinerary, const Vector2d& start, RandomStream stream)
+    : itinerary_(std::move(itinerary)),
+      start_(start),
+      random_(stream),
+      next_look_(random_.uniform(0.0, kLookPeriod)) {
+  restart();
+}
+
+void Walker::restart() {
+  wants_to_return_ = false;
+  blocked_time_ = 0.0;
+  yield_until_ = 0.0;
+  enterLeg(itinerary_.legs.empty() ? -1 : 0);
+}
+
+void Walker::enterLeg(int leg) {
+  leg_ = leg;
+  if (leg >= 0) {
+    route_ = itinerary_.legs[static_cast<std::size_t>(leg)].points;
+  } else {
+    const Vector2d stay = route_.empty() ? start_ : Vector2d(route_.back());
+    route_.assign(2, stay);
+  }
+  route_point_ = 1;
+}
+
+double Walker::arrivalTolerance(const CrowdParams& params) const {
+  const bool stops_here = itinerary_.next(leg_) < 0;
+  const double tolerance = stops_here ? params.stop_tolerance : params.waypoint_tolerance;
+  return std::min(tolerance + kToleranceGrowth * blocked_time_, kLargestTolerance);
+}
+
+void Walker::passReachedPoints(const Vector2d& position, const CrowdParams& params) {
+  while (!isLastPoint() && (route_[route_point_] - position).norm() < params.waypoint_tolerance)
+    ++route_point_;
+  if (leg_ < 0 || !isLastPoint() || (route_.back() - position).norm() >= arrivalTolerance(params)) return;
+  const bool at_the_end = leg_ + 1 == static_cast<int>(itinerary_.legs.size());
+  if (at_the_end && itinerary_.jumps_back) {
+    wants_to_return_ = true;
+    return;
+  }
+  blocked_time_ = 0.0;
+  enterLeg(itinerary_.next(leg_));
+}
+
+/// Looks ahead: takes a shorter way when the next point but one is in sight, asks for another route when the
+/// next point is not.
+void Walker::refreshRoute(const PersonState& self, double time, const WalkerSurroundings& surroundings) {
+  if (surroundings.router == nullptr || time < next_look_) return;
+  next_look_ = time + kLookPeriod;
+  const double body = 0.95 * self.radius;
+  if (!isLastPoint() && canWalkStraight(surroundings.map, self.position, route_[route_point_ + 1], body)) {
+    ++route_point_;
+    route_in_doubt_ = false;
+    return;
+  }
+  if (canWalkStraight(surroundings.map, self.position, route_[route_point_], body) && !route_in_doubt_)
+    return;
+  route_in_doubt_ = false;
+  if (surroundings.router->route(self.position, Vector2d(route_.back()), self.radius, route_))
+    route_point_ = 1;
+}
+
+Vector2d Walker::lean(const Vector2d& direction, double time, const CrowdParams& params) {
+  if (time >= next_lean_) {
+    lean_angle_ = -params.pass_right_angle + random_.uniform(-params.direction_noise, params.direction_noise);
+    next_lean_ = time + kLeanPeriod;
+  }
+  return rotated(direction, lean_angle_);
+}
+
+Vector2d Walker::preferredVelocity(const PersonState& self, double time, double period,
+                                   const CrowdParams& params, const WalkerSurroundings& surroundings) {
+  passReachedPoints(self.position, params);
+  refreshRoute(self, time, surroundings);
+  if (isYielding(time)) return 0.6 * self.preferred_speed * yield_direction_;
+  const Vector2d way = route_[route_point_] - self.position;
+  const double distance = way.norm();
+  const bool stops_here = isLastPoint() && (leg_ < 0 || itinerary_.next(leg_) < 0);
+  if (distance < 1e-6 || (leg_ < 0 && distance < params.stop_tolerance)) {
+    direction_.setZero();
+    return Vector2d::Zero();
+  }
+  direction_ = way / distance;
+  const double speed = std::min(
+      {self.preferred_speed, stops_here ? distance / kStopTime : self.preferred_speed, distance / period});
+  return speed * lean(direction_, time, params);
+}
+
+void Walker::noteProgress(const PersonState& self, const Vector2d& chosen, double time, double period,
+                          const CrowdParams& params) {
+  if (isYielding(time) || leg_ < 0 || direction_.isZero()) return;
+  const bool blocked = chosen.dot(direction_) < params.blocked_speed * self.preferred_speed;
+  blocked_time_ = blocked ? blocked_time_ + period : std::max(0.0, blocked_time_ - 0.5 * period);
+  if (patience_ <= 0.0) patience_ = params.patience * random_.uniform(1.0, 2.0);
+  if (blocked_time_ < patience_) return;
+  // A stand-off: some step back and aside, the others try on; the draws of the next time differ again.
+  const double side = random_.uniform() < 0.5 ? -1.0 : 1.0;
+  const double angle = side * random_.uniform(0.5, 0.95) * 3.14159;
+  if (random_.uniform() < 0.6) {
+    yield_direction_ = rotated(direction_, angle);
+    yield_until_ = time + params.yield_time * random_.uniform(1.0, 2.0);
+    route_in_doubt_ = true;
+  }
+  patience_ = blocked_time_ + params.patience * random_.uniform(1.0, 2.0);
+}
+
+}  // namespace kobuki_sim
