@@ -41,20 +41,21 @@ const char* name(PredictionStatus status) {
 }
 
 void TimeLayer::resize(const sarn::GridGeometry& grid) {
+  geometry = grid;
   cells.assign(grid.size(), sarn::kFreeSpace);
   painted.clear();
 }
 
-void TimeLayer::clear(const sarn::GridGeometry& grid) {
-  forEachRun(painted, grid, [&](std::ptrdiff_t begin, int count) {
+void TimeLayer::clear() {
+  forEachRun(painted, geometry, [&](std::ptrdiff_t begin, int count) {
     std::fill_n(cells.begin() + begin, count, sarn::kFreeSpace);
   });
   painted.clear();
 }
 
-void TimeLayer::copyFrom(const TimeLayer& other, const sarn::GridGeometry& grid) {
-  clear(grid);
-  forEachRun(other.painted, grid, [&](std::ptrdiff_t begin, int count) {
+void TimeLayer::copyFrom(const TimeLayer& other) {
+  clear();
+  forEachRun(other.painted, geometry, [&](std::ptrdiff_t begin, int count) {
     std::copy_n(other.cells.begin() + begin, count, cells.begin() + begin);
   });
   painted.assign(other.painted.begin(), other.painted.end());
@@ -66,7 +67,7 @@ void SocialLayers::setParams(const SocialParams& params) {
   params_ = params;
   layers_.resize(static_cast<std::size_t>(params.num_layers));
   for (TimeLayer& layer : layers_) {
-    if (layer.cells.size() != geometry_.size()) layer.resize(geometry_);
+    if (layer.geometry != geometry_) layer.resize(geometry_);
   }
 }
 
@@ -76,7 +77,7 @@ void SocialLayers::resize(const sarn::GridGeometry& geometry) {
 }
 
 void SocialLayers::clear() {
-  for (TimeLayer& layer : layers_) layer.clear(geometry_);
+  for (TimeLayer& layer : layers_) layer.clear();
 }
 
 std::vector<const std::uint8_t*> SocialLayers::layers() const {

@@ -51,7 +51,7 @@ class ObstacleLayer : public Layer {
   void setPeople(std::vector<sarn::Person> people, double stamp);
   /// Lethal cells of these costs are known walls (master's geometry, otherwise none are known).
   void setStaticCosts(const CostGrid& costs);
-  [[nodiscard]] std::size_t markedCells() const { return marked_.size(); }
+  [[nodiscard]] std::size_t markedCells() const;
 
   void matchSize(const sarn::GridGeometry& geometry) override;
   void reset() override;
@@ -64,21 +64,24 @@ class ObstacleLayer : public Layer {
     Eigen::Vector2d from;  // [m]
     Eigen::Vector2d to;    // [m]
   };
-  void updatePeopleAt(double stamp);
+  void locatePeopleAt(double stamp);
   [[nodiscard]] bool belongsToPerson(const Eigen::Vector2d& point) const;
-  void clearBeam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bool keep_last);
-  void clearDisc(const Eigen::Vector2d& center, double radius);
-  void clearPeople();
+  [[nodiscard]] bool coversMap(const sarn::Pose2D& sensor) const;
+  void clearAlong(const Scan& scan);
+  void markEnds(const Scan& scan);
+  void clearUnderPeople();
   void mark(const Eigen::Vector2d& point, double stamp);
   void set(const sarn::CellIndex& cell, std::uint8_t cost);
-  void expire(double now);
+  /// Clears marked cells for which test(index, centre) holds.
+  template <class Test>
+  void clearMarkedIf(Test&& test);
 
   ObstacleLayerParams params_;
-  CostGrid costs_;                        // 255 never seen, 0 seen free, 254 marked
-  sarn::Grid<double> marked_at_;          // [s]
-  sarn::Grid<std::uint8_t> near_static_;  // 1 within static_tolerance of a known wall
-  std::vector<std::size_t> marked_;       // indices of cells that are or were marked, each once
-  sarn::Grid<std::uint8_t> listed_;       // 1 when a cell is in marked_
+  CostGrid costs_;                         // 255 never seen, 0 seen free, 254 marked
+  std::vector<double> marked_at_;          // [s] per cell
+  std::vector<std::uint8_t> near_static_;  // per cell: 1 within static_tolerance of a known wall
+  std::vector<std::uint8_t> listed_;       // per cell: 1 when it is in marked_
+  std::vector<sarn::CellIndex> marked_;    // every marked cell, and some that have been cleared since
   std::vector<sarn::Person> people_;
   double people_stamp_ = 0.0;  // [s]
   std::vector<PersonSegment> segments_;

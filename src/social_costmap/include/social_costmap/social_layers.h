@@ -31,13 +31,14 @@ struct SocialReport {
 /// A sparse layer of costs that knows which cells it holds, so that it is cleared and copied in that many
 /// steps.
 struct TimeLayer {
+  sarn::GridGeometry geometry;
   std::vector<std::uint8_t> cells;  // row-major
   std::vector<CellRect> painted;    // all non-zero cells lie in these; they may overlap
 
   void resize(const sarn::GridGeometry& grid);
-  void clear(const sarn::GridGeometry& grid);
-  /// Both layers have this geometry.
-  void copyFrom(const TimeLayer& other, const sarn::GridGeometry& grid);
+  void clear();
+  /// The other layer has the same geometry.
+  void copyFrom(const TimeLayer& other);
 };
 
 /// K time layers over one grid (Kollmitz et al. 2015; paper section IV-B c): layer i holds the people
