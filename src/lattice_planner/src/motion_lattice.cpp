@@ -10,7 +10,8 @@ namespace {
 /// Multiples of `step` from min to max, which are multiples themselves.
 std::vector<double> multiples(double min, double max, double step) {
   std::vector<double> values;
-  for (int k = static_cast<int>(std::lround(min / step)); k <= static_cast<int>(std::lround(max / step)); ++k) {
+  for (int k = static_cast<int>(std::lround(min / step)); k <= static_cast<int>(std::lround(max / step));
+       ++k) {
     values.push_back(k * step);
   }
   return values;
@@ -67,8 +68,9 @@ MotionPrimitive MotionLattice::primitive(const sarn::Twist2D& from, int v, int o
   p.omega = static_cast<std::uint8_t>(omega);
   p.dtheta = mean.omega * time_step_;
   p.length = static_cast<float>(std::abs(mean.v) * time_step_);
-  p.base_cost = static_cast<float>(time_weight_ * time_step_ + length_weight_ * std::abs(mean.v) * time_step_ +
-                                   rotation_weight_ * std::abs(p.dtheta));
+  p.base_cost =
+      static_cast<float>(time_weight_ * time_step_ + length_weight_ * std::abs(mean.v) * time_step_ +
+                         rotation_weight_ * std::abs(p.dtheta));
   for (int i = 1; i <= samples_per_step_; ++i) {
     p.samples.push_back(sarn::advance({}, mean, time_step_ * i / samples_per_step_));
   }

@@ -13,8 +13,8 @@ void checkMultiple(const char* limit, double value, const char* acceleration, do
   const double steps = value / (acc * time_step);
   if (std::abs(steps - std::round(steps)) < 1e-6) return;
   std::ostringstream text;
-  text << limit << ": " << value << " is not a multiple of " << acceleration << " * time_step = " << acc * time_step
-       << "; the nearest is " << std::round(steps) * acc * time_step;
+  text << limit << ": " << value << " is not a multiple of " << acceleration
+       << " * time_step = " << acc * time_step << "; the nearest is " << std::round(steps) * acc * time_step;
   conflicts.push_back(text.str());
 }
 

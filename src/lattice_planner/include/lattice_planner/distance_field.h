@@ -13,30 +13,34 @@ namespace lattice_planner {
 /// What the field needs to know about the static layer and the cost function.
 struct DistanceFieldTask {
   sarn::GridGeometry geometry;
-  const std::uint8_t* costs = nullptr;            // static layer, row-major
+  const std::uint8_t* costs = nullptr;             // static layer, row-major
   const std::array<bool, 256>* blocked = nullptr;  // by cell cost
   const std::array<float, 256>* rate = nullptr;    // [1/m] smallest cost of a metre in a cell of this cost
-  std::function<bool(const sarn::CellIndex&)> exempt;  // cells that are passable although blocked; may be empty
+  std::function<bool(const sarn::CellIndex&)>
+      exempt;                // cells that are passable although blocked; may be empty
   double goal_x = 0.0;       // [m]
   double goal_y = 0.0;       // [m]
   double goal_radius = 0.0;  // [m] zero cost inside
-  /// Lower bound of the cost to go from anywhere in a cell, known otherwise; 0 when nothing is known. May be empty.
+  /// Lower bound of the cost to go from anywhere in a cell, known otherwise; 0 when nothing is known. May be
+  /// empty.
   std::function<float(const sarn::CellIndex&)> floor;
 };
 
-/// Lower bound of the cost to go from each cell, by Dijkstra from the goal over the static layer; people, heading and
-/// speed aside. Computed only as far as it is asked.
+/// Lower bound of the cost to go from each cell, by Dijkstra from the goal over the static layer; people,
+/// heading and speed aside. Computed only as far as it is asked.
 ///
-/// The grid is 16-connected (moves of 1, sqrt 2 and sqrt 5 cells), whose distances exceed the Euclidean ones by less
-/// than 2.75 per cent; the result is scaled by that. Obstacles are thinned and costs are taken as the smallest of the
-/// 3 x 3 neighbourhood: the shortest curve round obstacles turns only at corners of cells, so that, shifted by half a
-/// cell, it becomes a grid path of no more than 1.0275 of its length that stays within one cell of it. What the ends
-/// add (less than one and a half cells) is taken off. Hence no path is overestimated.
+/// The grid is 16-connected (moves of 1, sqrt 2 and sqrt 5 cells), whose distances exceed the Euclidean ones
+/// by less than 2.75 per cent; the result is scaled by that. Obstacles are thinned and costs are taken as the
+/// smallest of the 3 x 3 neighbourhood: the shortest curve round obstacles turns only at corners of cells, so
+/// that, shifted by half a cell, it becomes a grid path of no more than 1.0275 of its length that stays
+/// within one cell of it. What the ends add (less than one and a half cells) is taken off. Hence no path is
+/// overestimated.
 class DistanceField {
  public:
   void reset(DistanceFieldTask task);
-  /// Lower bound of the cost from the cell to the goal; infinity when the goal cannot be reached. `keep_going` is asked
-  /// now and then: false ends the computation; then the answer is the bound known so far (the wave's front).
+  /// Lower bound of the cost from the cell to the goal; infinity when the goal cannot be reached.
+  /// `keep_going` is asked now and then: false ends the computation; then the answer is the bound known so
+  /// far (the wave's front).
   [[nodiscard]] float at(const sarn::CellIndex& cell);
   void setKeepGoing(std::function<bool()> keep_going) { keep_going_ = std::move(keep_going); }
   [[nodiscard]] std::size_t settled() const { return settled_; }
@@ -60,9 +64,9 @@ class DistanceField {
   DistanceFieldTask task_;
   std::function<bool()> keep_going_;
   std::vector<float> label_;
-  std::vector<float> rate_cache_;       // negative: not known yet
+  std::vector<float> rate_cache_;  // negative: not known yet
   std::vector<std::uint8_t> state_;
-  std::vector<std::uint32_t> touched_;  // cells to clean at the next reset
+  std::vector<std::uint32_t> touched_;       // cells to clean at the next reset
   std::vector<std::vector<Entry>> buckets_;  // ring, each one straight cheapest step wide
   std::size_t first_bucket_ = 0;
   std::uint64_t first_number_ = 0;  // of the first bucket

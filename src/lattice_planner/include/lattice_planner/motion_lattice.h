@@ -11,13 +11,13 @@ namespace lattice_planner {
 
 /// One action from given speeds: a constant arc with the mean of old and new speeds, for one time step.
 struct MotionPrimitive {
-  std::uint8_t v = 0;         // index of the forward speed afterwards
-  std::uint8_t omega = 0;     // index of the angular speed afterwards
-  double dtheta = 0.0;        // [rad] turn
-  float base_cost = 0.0F;     // time, length and rotation cost
-  float length = 0.0F;        // [m] path length, >= 0
-  std::vector<sarn::Pose2D> samples;  // equal steps of time along the arc, without its start, with its end; in the
-                                      // frame of the start pose
+  std::uint8_t v = 0;                 // index of the forward speed afterwards
+  std::uint8_t omega = 0;             // index of the angular speed afterwards
+  double dtheta = 0.0;                // [rad] turn
+  float base_cost = 0.0F;             // time, length and rotation cost
+  float length = 0.0F;                // [m] path length, >= 0
+  std::vector<sarn::Pose2D> samples;  // equal steps of time along the arc, without its start, with its end;
+                                      // in the frame of the start pose
 };
 
 /// The discrete speeds and the actions {-1, 0, 1} x {-1, 0, 1} between them.
@@ -40,8 +40,8 @@ class MotionLattice {
   [[nodiscard]] const std::vector<MotionPrimitive>& from(int v, int omega) const {
     return primitives_[static_cast<std::size_t>(v * angularSpeeds() + omega)];
   }
-  /// Actions from any speeds: to every lattice speed within one acceleration step; where there is none (too fast),
-  /// to the nearest lattice speed.
+  /// Actions from any speeds: to every lattice speed within one acceleration step; where there is none (too
+  /// fast), to the nearest lattice speed.
   [[nodiscard]] std::vector<MotionPrimitive> fromAny(const sarn::Twist2D& twist) const;
 
   /// Smallest cost of one metre of path, people and obstacles aside.

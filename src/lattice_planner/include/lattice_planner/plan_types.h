@@ -25,7 +25,8 @@ enum class PlanStatus {
 
 /// True when the trajectory leads towards the goal and may be driven.
 [[nodiscard]] inline bool isDrivable(PlanStatus status) {
-  return status == PlanStatus::kComplete || status == PlanStatus::kGoalAnyPose || status == PlanStatus::kPartial;
+  return status == PlanStatus::kComplete || status == PlanStatus::kGoalAnyPose ||
+         status == PlanStatus::kPartial;
 }
 
 struct PlanRequest {
@@ -38,11 +39,12 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kInvalidRequest;
   sarn::TimedTrajectory trajectory;  // starts at the request's start; ends standing still; empty when none
   double cost = std::numeric_limits<double>::infinity();  // C of the trajectory
-  double bound = std::numeric_limits<double>::infinity();  // cost <= bound * optimum on the lattice; kComplete only
-  std::size_t expansions = 0;  // states expanded
-  std::size_t generated = 0;   // successors looked at
-  double search_time = 0.0;    // [s] wall time of the whole call
-  bool timed_out = false;      // time, expansions or memory ran out before the bound was proved
+  double bound =
+      std::numeric_limits<double>::infinity();  // cost <= bound * optimum on the lattice; kComplete only
+  std::size_t expansions = 0;                   // states expanded
+  std::size_t generated = 0;                    // successors looked at
+  double search_time = 0.0;                     // [s] wall time of the whole call
+  bool timed_out = false;  // time, expansions or memory ran out before the bound was proved
 };
 
 }  // namespace lattice_planner

@@ -8,27 +8,27 @@
 
 namespace lattice_planner {
 
-/// Everything that decides what LatticePlanner searches and what it calls cheap. One unit of cost is what time_weight
-/// makes of one second.
+/// Everything that decides what LatticePlanner searches and what it calls cheap. One unit of cost is what
+/// time_weight makes of one second.
 struct PlannerParams {
   // Lattice. Speeds are the multiples of acc_lim * time_step inside the limits.
-  double time_step = 0.25;      // [s] duration of one action
-  double min_vel_x = 0.0;       // [m/s] <= 0; below 0: the robot may reverse
-  double max_vel_x = 0.5;       // [m/s]
-  double acc_lim_x = 1.0;       // [m/s^2]
-  double max_vel_theta = 1.0;   // [rad/s]
-  double acc_lim_theta = 2.0;   // [rad/s^2]
+  double time_step = 0.25;     // [s] duration of one action
+  double min_vel_x = 0.0;      // [m/s] <= 0; below 0: the robot may reverse
+  double max_vel_x = 0.5;      // [m/s]
+  double acc_lim_x = 1.0;      // [m/s^2]
+  double max_vel_theta = 1.0;  // [rad/s]
+  double acc_lim_theta = 2.0;  // [rad/s^2]
 
   // Goal: inside both tolerances and standing still.
   double xy_goal_tolerance = 0.15;  // [m]
   double yaw_goal_tolerance = 0.2;  // [rad]
 
   // Cost C = sum w_i c_i.
-  double time_weight = 1.0;      // [1/s]
-  double length_weight = 0.2;    // [1/m]
-  double rotation_weight = 0.1;  // [1/rad]
-  double static_weight = 1.5;    // [1/s] for staying in static cost 252; smaller costs in proportion
-  double social_weight = 8.0;    // [1/s] for staying in social cost 252; smaller costs in proportion
+  double time_weight = 1.0;       // [1/s]
+  double length_weight = 0.2;     // [1/m]
+  double rotation_weight = 0.1;   // [1/rad]
+  double static_weight = 1.5;     // [1/s] for staying in static cost 252; smaller costs in proportion
+  double social_weight = 8.0;     // [1/s] for staying in social cost 252; smaller costs in proportion
   bool combine_with_max = false;  // charge only the dearer of static and social cost, as the ancestor does
 
   // What is forbidden.
@@ -44,10 +44,10 @@ struct PlannerParams {
   // Search.
   double heuristic_weight = 1.5;     // >= 1; first solution by weighted A*, then the weight falls to 1
   double suboptimality_bound = 1.0;  // >= 1; stop as soon as cost <= bound * optimum is proved
-  int max_expansions = 0;            // 0: only time limits; else a bound that gives the same answer on any machine
-  int max_states = 1000000;          // memory bound: about 90 bytes each
-  double table_radius = 1.0;         // [m] of the obstacle-free cost table around the goal; 0: no table
-  double table_resolution = 0.1;     // [m]
+  int max_expansions = 0;     // 0: only time limits; else a bound that gives the same answer on any machine
+  int max_states = 1000000;   // memory bound: about 90 bytes each
+  double table_radius = 1.0;  // [m] of the obstacle-free cost table around the goal; 0: no table
+  double table_resolution = 0.1;  // [m]
   int table_headings = 48;
 
   // Leaving a forbidden area that the robot finds itself in.
@@ -72,7 +72,7 @@ struct PlannerParams {
     v("forbidden_cost", p.forbidden_cost, {1.0, 254.0});
     v("allow_unknown", p.allow_unknown);
     v("collision_check_distance", p.collision_check_distance, {0.005, 0.5});
-    v("merge_resolution", p.merge_resolution, {1e-4, 0.5});
+    v("merge_resolution", p.merge_resolution, {1e-3, 0.5});
     v("heading_bins", p.heading_bins, {4.0, 1024.0});
     v("time_merge_steps", p.time_merge_steps, {1.0, 100.0});
     v("heuristic_weight", p.heuristic_weight, {1.0, 100.0});

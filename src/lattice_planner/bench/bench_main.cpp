@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// lattice_planner_bench: plans tasks on a map file and prints one JSON line a task and one summary line a
+// condition.
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "bench_world.h"
+#include "lattice_planner/lattice_planner.h"
+
+namespace {
+
+using lattice_planner::PlanResult;
+using lattice_planner::PlanStatus;
+
+constexpr const char* kUsage =
+    "usage: lattice_planner_bench MAP.yaml [--pairs FILE.csv] [--people FILE.csv] [--params FILE.yaml]\n"
+    "         [--time-limit SECONDS] [--count N] [--seed N] [--name NAME] [--verbose]\n"
+    "Without --pairs: N seeded tasks of 2 to 8 m on the map's largest free area.\n";
+
+struct Options {
+  std::string map;
+  std::string pairs;
+  std::string people;
+  std::string params;
+  std::string name = "default";
+  double time_limit = 0.48;  // [s]
+  int count = 100;
+  unsigned seed = 7;
+  bool verbose = false;
+};
+
+Options parse(int argc, char** argv) {
+  Options options;
+  const std::map<std::string, std::string*> texts = {{"--pairs", &options.pairs},
+                                                     {"--people", &options.people},
+                                                     {"--params", &options.params},
+                                                     {"--name", &options.name}};
+  for (int i = 1; i < argc; ++i) {
+    const std::string key = argv[i];
+    if (key == "--verbose") {
+      options.verbose = true;
+    } else if (key.rfind("--", 0) != 0) {
+      options.map = key;
+    } else if (i + 1 >= argc) {
+      throw std::invalid_argument(key + ": value missing\n" + kUsage);
+    } else if (const auto text = texts.find(key); text != texts.end()) {
+      *text->second = argv[++i];
+    } else if (key == "--time-limit") {
+      options.time_limit = std::stod(argv[++i]);
+    } else if (key == "--count") {
+      options.count = std::stoi(argv[++i]);
+    } else if (key == "--seed") {
+      options.seed = static_cast<unsigned>(std::stoul(argv[++i]));
+    } else {
+      throw std::invalid_argument(key + ": unknown option\n" + kUsage);
+    }
+  }
+  if (options.map.empty()) throw std::invalid_argument(kUsage);
+  return options;
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+/// Smallest distance between robot and walkers [m] over the predicted time.
+double closestWalker(const sarn::TimedTrajectory& trajectory, const lattice_planner::bench::Task& task,
+                     double horizon) {
+  double closest = std::numeric_limits<double>::infinity();
+  for (double t = trajectory.startTime(); t <= std::min(trajectory.endTime(), horizon); t += 0.02) {
+    const sarn::TrajectoryPoint p = trajectory.sample(t);
+    for (const auto& walker : task.walkers)
+      closest = std::min(closest, (walker.at(t) - p.pose().position()).norm());
+  }
+  return closest;
+}
+
+struct Measured {
+  std::vector<double> search_ms, cost, duration, length, person, expansions, bound;
+  int reached = 0;
+  int timed_out = 0;
+};
+
+void printSummary(const std::string& name, const Measured& m, std::size_t tasks) {
+  std::printf(
+      "{\"name\": \"%s\", \"tasks\": %zu, \"reached\": %d, \"timed_out\": %d, \"search_ms_median\": %.3f, "
+      "\"search_ms_p90\": %.3f, \"search_ms_p99\": %.3f, \"search_ms_max\": %.3f, \"expansions_median\": "
+      "%.0f, "
+      "\"cost_median\": %.3f, \"cost_mean\": %.4f, \"bound_median\": %.4f, \"duration_s_median\": %.3f, "
+      "\"duration_s_mean\": %.3f, "
+      "\"length_m_median\": %.3f, \"person_m_median\": %.3f, \"person_m_min\": %.3f}\n",
+      name.c_str(), tasks, m.reached, m.timed_out, quantile(m.search_ms, 0.5), quantile(m.search_ms, 0.9),
+      quantile(m.search_ms, 0.99), quantile(m.search_ms, 1.0), quantile(m.expansions, 0.5),
+      quantile(m.cost, 0.5),
+      [&m] {
+        double s = 0;
+        for (double c : m.cost) s += c;
+        return s / static_cast<double>(m.cost.size());
+      }(),
+      quantile(m.bound, 0.5), quantile(m.duration, 0.5),
+      [&m] {
+        double s = 0;
+        for (double c : m.duration) s += c;
+        return s / static_cast<double>(m.duration.size());
+      }(),
+      quantile(m.length, 0.5), quantile(m.person, 0.5), quantile(m.person, 0.0));
+}
+
+void printTask(std::size_t index, const PlanResult& r) {
+  std::printf(
+      "{\"task\": %zu, \"status\": \"%s\", \"search_ms\": %.3f, \"expansions\": %zu, \"generated\": %zu, "
+      "\"cost\": %.3f, \"bound\": %.4f, \"duration_s\": %.2f, \"length_m\": %.2f}\n",
+      index, toString(r.status), r.search_time * 1e3, r.expansions, r.generated, r.cost, r.bound,
+      r.trajectory.empty() ? 0.0 : r.trajectory.endTime() - r.trajectory.startTime(), r.trajectory.length());
+}
+
+void measure(const Options& options, lattice_planner::LatticePlanner& planner,
+             const sarn::Grid<std::uint8_t>& static_costs,
+             const std::vector<lattice_planner::bench::Task>& tasks, bool people) {
+  constexpr int kLayers = 20;
+  constexpr double kLayerDuration = 0.5;  // [s]
+  constexpr double kRelease = 0.48;       // [s] when the robot starts
+  lattice_planner::bench::SocialLayers social(static_costs.geometry, kLayers, kLayerDuration);
+  Measured measured;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (people) social.mark(tasks[i].walkers);
+    sarn::TimedCostmapView view = social.view(static_costs);
+    if (!people) view.layers.clear();
+    const sarn::Pose2D& start = tasks[i].start;
+    const PlanResult r = planner.plan(
+        {{start.x, start.y, start.theta, 0.0, 0.0, kRelease}, tasks[i].goal, options.time_limit}, view);
+    if (options.verbose) printTask(i, r);
+    measured.search_ms.push_back(r.search_time * 1e3);
+    measured.expansions.push_back(static_cast<double>(r.expansions));
+    measured.timed_out += r.timed_out ? 1 : 0;
+    if (r.status != PlanStatus::kComplete) continue;
+    ++measured.reached;
+    measured.cost.push_back(r.cost);
+    measured.bound.push_back(r.bound);
+    measured.duration.push_back(r.trajectory.endTime() - r.trajectory.startTime());
+    measured.length.push_back(r.trajectory.length());
+    if (people && !tasks[i].walkers.empty()) {
+      measured.person.push_back(closestWalker(r.trajectory, tasks[i], 7.5));
+    }
+  }
+  printSummary(options.name + (people ? ".people" : ".alone"), measured, tasks.size());
+}
+
+int run(const Options& options) {
+  lattice_planner::PlannerParams params;
+  if (!options.params.empty()) {
+    const auto problems = sarn::setFromYaml(YAML::LoadFile(options.params), params);
+    for (const auto& problem : problems) std::cerr << options.params << ": " << problem << "\n";
+    if (!problems.empty()) return 1;
+  }
+  const sarn::Grid<std::uint8_t> static_costs = lattice_planner::bench::inflatedMap(options.map, {});
+  std::vector<lattice_planner::bench::Task> tasks =
+      options.pairs.empty() ? lattice_planner::bench::makeTasks(static_costs, options.count, options.seed)
+                            : lattice_planner::bench::readTasks(options.pairs);
+  if (!options.people.empty()) lattice_planner::bench::readWalkers(options.people, tasks);
+  lattice_planner::LatticePlanner planner(params);
+  measure(options, planner, static_costs, tasks, false);
+  measure(options, planner, static_costs, tasks, true);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(parse(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << "lattice_planner_bench: " << error.what() << "\n";
+    return 1;
+  }
+}

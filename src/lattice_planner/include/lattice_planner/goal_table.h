@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "lattice_planner/motion_lattice.h"
+#include "lattice_planner/planner_params.h"
+#include "sarn_common/pose2d.h"
+
+namespace lattice_planner {
+
+/// Obstacle-free cost to go near the goal, over the robot's pose in the goal's frame and its speeds: what
+/// turning, braking and approaching the goal cost at least.
+///
+/// Value iteration V <- min_a c(a) + V(next), interpolated between the grid's nodes, from below: V starts at
+/// a lower bound and rises to the fixed point, so that it is a lower bound after any number of sweeps. The
+/// goal region is widened by what the interpolation can add.
+class GoalTable {
+ public:
+  GoalTable(const PlannerParams& params, const MotionLattice& lattice);
+
+  [[nodiscard]] bool empty() const { return radius_ <= 0.0; }
+  [[nodiscard]] double radius() const { return radius_; }  // [m]
+  /// Lower bound for the pose in the goal's frame and lattice speeds; the simple bound outside the radius.
+  [[nodiscard]] float at(double x, double y, double theta, int v, int omega) const;
+  /// Smallest value over all headings and speeds of the nodes around a place in the goal's frame; 0 outside.
+  [[nodiscard]] float floorAt(double x, double y) const;
+
+ private:
+  /// One action of one heading and speed pair: where it leads from any node.
+  struct Transition {
+    int dx;  // [nodes] lower left of the four nodes around the landing place
+    int dy;
+    float fx;  // [0, 1) landing place between them
+    float fy;
+    std::size_t heading_low;
+    std::size_t heading_high;
+    float heading_fraction;
+    std::size_t speeds;
+    int v;
+    int omega;
+    float cost;
+  };
+
+  [[nodiscard]] bool inside(double x, double y) const;
+  [[nodiscard]] double wrapHeading(double theta, std::size_t count) const;
+  [[nodiscard]] float interpolate(std::size_t node, float fx, float fy, std::size_t low, std::size_t high,
+                                  float fraction, std::size_t speeds) const;
+  [[nodiscard]] float simpleBound(double x, double y, double theta, int v, int omega) const;
+  void buildTurnCosts(double rotation_weight);
+  void buildTransitions();
+  void initialize();
+  [[nodiscard]] float sweep(const std::vector<std::size_t>& order);
+  [[nodiscard]] float bestSuccessor(int ix, int iy, const std::vector<Transition>& transitions) const;
+  [[nodiscard]] bool isGoal(int ix, int iy, std::size_t heading, std::size_t speeds) const;
+  [[nodiscard]] std::vector<std::size_t> nodesByDistance() const;
+  void computeFloors();
+  [[nodiscard]] std::size_t index(std::size_t node, std::size_t heading, std::size_t speeds) const {
+    return (node * headings_ + heading) * speed_pairs_ + speeds;
+  }
+
+  const MotionLattice& lattice_;
+  double radius_;
+  double resolution_;
+  double xy_tolerance_;   // [m] widened
+  double yaw_tolerance_;  // [rad] widened
+  double time_weight_;
+  int half_;  // [nodes] from the centre to the edge
+  int side_;  // [nodes]
+  std::size_t headings_;
+  std::size_t speed_pairs_;
+  std::vector<std::vector<Transition>> transitions_;  // [heading * speed_pairs + speeds]
+  std::vector<float> values_;                         // [node][heading][speeds]
+  std::vector<float> floors_;                         // [node]
+  std::vector<float> turn_costs_;  // [fine heading][omega]: turning and stopping, wherever it is
+};
+
+}  // namespace lattice_planner

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lattice_planner {
+
+using StateId = std::uint32_t;
+inline constexpr StateId kNoState = 0xFFFFFFFFU;
+
+/// A node of the search: the exact state, never changed once made. A cheaper way into the same merge cell
+/// makes a new record, so that the poses along a path always follow from each other.
+struct SearchState {
+  double x = 0.0;      // [m]
+  double y = 0.0;      // [m]
+  double theta = 0.0;  // [rad] (-pi, pi]
+  double g = 0.0;      // cost so far
+  float h = 0.0F;      // lower bound of the cost to go
+  StateId parent = kNoState;
+  std::uint32_t step = 0;  // [time steps] since the start
+  std::uint8_t v = 0;      // index into the lattice's speeds
+  std::uint8_t omega = 0;  // likewise
+  bool done = false;       // expanded, or superseded by a cheaper record
+  bool escaping = false;   // still inside the forbidden area the robot started in
+
+  [[nodiscard]] double f() const { return g + static_cast<double>(h); }
+};
+
+/// States of one search, found by merge key. Keeps its memory from search to search.
+class StatePool {
+ public:
+  /// Forgets all states.
+  void reset();
+  [[nodiscard]] std::size_t size() const { return states_.size(); }
+  [[nodiscard]] SearchState& operator[](StateId id) { return states_[id]; }
+  [[nodiscard]] const SearchState& operator[](StateId id) const { return states_[id]; }
+  /// The cheapest record of a merge cell, or kNoState.
+  [[nodiscard]] StateId find(std::uint64_t key) const;
+  /// Adds a record and makes it the one that the key finds.
+  StateId put(std::uint64_t key, const SearchState& state);
+  /// Adds a record that no key finds.
+  StateId add(const SearchState& state);
+  [[nodiscard]] std::size_t memory() const;  // [bytes]
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    StateId id = kNoState;
+    std::uint32_t epoch = 0;
+  };
+  [[nodiscard]] std::size_t slotOf(std::uint64_t key) const;
+  void grow();
+
+  std::vector<SearchState> states_;
+  std::vector<Slot> slots_ = std::vector<Slot>(std::size_t{1} << 15U);
+  std::size_t used_ = 0;
+  std::uint32_t epoch_ = 1;
+};
+
+}  // namespace lattice_planner

@@ -1,0 +1,498 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "sarn_common/angles.h"
+
+namespace lattice_planner {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr double kFullCost = 252.0;               // the largest cost that may be entered
+constexpr std::uint8_t kUnknownCountsAs = 126;    // when it may be entered
+constexpr std::uint32_t kLongestTimeAxis = 2000;  // [time steps]
+
+bool finite(const sarn::TrajectoryPoint& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.theta) && std::isfinite(p.v) &&
+         std::isfinite(p.omega) && std::isfinite(p.t);
+}
+
+bool usable(const sarn::TimedCostmapView& costmap) {
+  const sarn::GridGeometry& g = costmap.geometry;
+  return g.width > 0 && g.height > 0 && g.resolution > 0.0 && std::isfinite(g.resolution) &&
+         std::isfinite(g.origin_x) && std::isfinite(g.origin_y) && costmap.static_costs != nullptr &&
+         costmap.layer_duration > 0.0 && std::isfinite(costmap.layer_duration) &&
+         std::isfinite(costmap.first_layer_time) &&
+         std::none_of(costmap.layers.begin(), costmap.layers.end(),
+                      [](const auto* layer) { return layer == nullptr; });
+}
+
+}  // namespace
+
+Search::Search(const PlannerParams& params) : params_(params), lattice_(params), table_(params, lattice_) {
+  const double sample_time = params.time_step / lattice_.samplesPerStep();
+  for (std::size_t cost = 0; cost < 256; ++cost) {
+    const bool unknown = cost == sarn::kNoInformation;
+    const bool too_high = !unknown && cost >= static_cast<std::size_t>(params.forbidden_cost);
+    forbidden_static_[cost] = too_high || (unknown && !params.allow_unknown);
+    forbidden_social_[cost] = too_high;
+    const double static_part = (unknown ? kUnknownCountsAs : static_cast<double>(cost)) / kFullCost;
+    const double social_part = unknown ? 0.0 : static_cast<double>(cost) / kFullCost;
+    static_cost_[cost] = static_cast<float>(params.static_weight * static_part * sample_time);
+    social_cost_[cost] = static_cast<float>(params.social_weight * social_part * sample_time);
+    static_per_metre_[cost] = static_cast<float>(lattice_.costPerMetre() +
+                                                 params.static_weight * static_part / lattice_.maxSpeed());
+  }
+}
+
+PlanResult Search::plan(const PlanRequest& request, const sarn::TimedCostmapView& costmap) {
+  const Clock::time_point begin = Clock::now();
+  PlanResult result;
+  const std::optional<PlanStatus> refused = refuse(request, costmap);
+  if (refused) {
+    result.status = *refused;
+  } else {
+    const double limit = std::min(request.time_limit, 1e6);
+    deadline_ = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit));
+    prepare(request, costmap);
+    finish(run(), result);
+  }
+  result.search_time = std::chrono::duration<double>(Clock::now() - begin).count();
+  return result;
+}
+
+std::optional<PlanStatus> Search::refuse(const PlanRequest& request,
+                                         const sarn::TimedCostmapView& costmap) const {
+  const bool goal_finite =
+      std::isfinite(request.goal.x) && std::isfinite(request.goal.y) && std::isfinite(request.goal.theta);
+  if (!finite(request.start) || !goal_finite || !(request.time_limit > 0.0) || !usable(costmap)) {
+    return PlanStatus::kInvalidRequest;
+  }
+  const auto start = costmap.geometry.cellAt(request.start.x, request.start.y);
+  if (!start) return PlanStatus::kStartOutsideMap;
+  const auto goal = costmap.geometry.cellAt(request.goal.x, request.goal.y);
+  if (!goal) return PlanStatus::kGoalOutsideMap;
+  if (costmap.static_costs[costmap.geometry.index(*start)] == sarn::kLethalObstacle) {
+    return PlanStatus::kStartOccupied;
+  }
+  if (forbidden_static_[costmap.static_costs[costmap.geometry.index(*goal)]])
+    return PlanStatus::kGoalOccupied;
+  return std::nullopt;
+}
+
+void Search::prepare(const PlanRequest& request, const sarn::TimedCostmapView& costmap) {
+  request_ = request;
+  request_.start.theta = sarn::wrapAngle(request.start.theta);
+  request_.goal.theta = sarn::wrapAngle(request.goal.theta);
+  costmap_ = costmap;
+  goal_from_map_ = sarn::inverse(request_.goal);
+  start_actions_ = lattice_.fromAny({request.start.v, request.start.omega});
+  const double extent =
+      std::max(costmap.geometry.width, costmap.geometry.height) * costmap.geometry.resolution;
+  merge_size_ = std::max(params_.merge_resolution, extent / 65535.0);  // the key has 16 bits a side
+  pool_.reset();
+  open_.clear();
+  progress_.clear();
+  weight_ = params_.heuristic_weight;
+  best_goal_ = best_any_pose_ = kNoState;
+  best_cost_ = std::numeric_limits<double>::infinity();
+  closest_ = kInfinity;
+  expansions_ = generated_ = expansions_at_weight_ = 0;
+  prepareTimeAxis();
+  const sarn::CellIndex start = costmap_.geometry.cellAtUnbounded(request.start.x, request.start.y);
+  escape_.reset(costmap_, forbidden_static_, forbidden_social_, start, request.start.t,
+                params_.escape_radius);
+  prepareDistanceField();
+}
+
+/// Layers of the samples of each time step, up to the step from which on the last layer holds. Equal layers
+/// at the end count as one: standing people do not keep states apart by time.
+void Search::prepareTimeAxis() {
+  last_layer_ = static_cast<int>(costmap_.layers.size()) - 1;
+  int first_of_last = last_layer_;
+  const std::size_t size = costmap_.geometry.size();
+  while (first_of_last > 0) {
+    const std::uint8_t* a = costmap_.layers[static_cast<std::size_t>(first_of_last - 1)];
+    const std::uint8_t* b = costmap_.layers[static_cast<std::size_t>(last_layer_)];
+    if (a != b && std::memcmp(a, b, size) != 0) break;
+    --first_of_last;
+  }
+  layer_of_sample_.clear();
+  merge_step_ = 0;
+  if (first_of_last <= 0) return;
+  const double changes_until = costmap_.first_layer_time + first_of_last * costmap_.layer_duration;
+  const int samples = lattice_.samplesPerStep();
+  const auto time = [&](std::uint32_t step, int sample) {
+    return request_.start.t + (step + static_cast<double>(sample + 1) / samples) * params_.time_step;
+  };
+  while (merge_step_ < kLongestTimeAxis && time(merge_step_, -1) < changes_until) {
+    for (int k = 0; k < samples; ++k) layer_of_sample_.push_back(costmap_.layerAt(time(merge_step_, k)));
+    ++merge_step_;
+  }
+}
+
+int Search::layerOf(std::uint32_t step, int sample) const {
+  if (step >= merge_step_) return last_layer_;
+  return layer_of_sample_[step * static_cast<std::size_t>(lattice_.samplesPerStep()) +
+                          static_cast<std::size_t>(sample)];
+}
+
+void Search::prepareDistanceField() {
+  DistanceFieldTask task;
+  task.geometry = costmap_.geometry;
+  task.costs = costmap_.static_costs;
+  task.blocked = &forbidden_static_;
+  task.rate = &static_per_metre_;
+  task.goal_x = request_.goal.x;
+  task.goal_y = request_.goal.y;
+  task.goal_radius = params_.xy_goal_tolerance;
+  if (escape_.active()) {
+    task.exempt = [this](const sarn::CellIndex& cell) { return escape_.exemptsStatic(cell); };
+  }
+  if (!table_.empty()) {
+    task.floor = [this](const sarn::CellIndex& cell) {
+      const Eigen::Vector2d p = goal_from_map_ * costmap_.geometry.center(cell);
+      return table_.floorAt(p.x(), p.y());
+    };
+  }
+  field_.setKeepGoing([this] { return Clock::now() < deadline_; });
+  field_.reset(std::move(task));
+}
+
+float Search::heuristic(double x, double y, double theta, int v, int omega) {
+  const float far = field_.at(costmap_.geometry.cellAtUnbounded(x, y));
+  const Eigen::Vector2d p = goal_from_map_ * Eigen::Vector2d(x, y);
+  return std::max(far, table_.at(p.x(), p.y(), theta - request_.goal.theta, v, omega));
+}
+
+StateId Search::addStart() {
+  SearchState start;
+  start.x = request_.start.x;
+  start.y = request_.start.y;
+  start.theta = request_.start.theta;
+  start.h = field_.at(costmap_.geometry.cellAtUnbounded(start.x, start.y));
+  start.escaping = escape_.active();
+  const auto nearest = [](double speed, int count, const auto& value) {
+    int best = 0;
+    for (int i = 1; i < count; ++i) {
+      if (std::abs(value(i) - speed) < std::abs(value(best) - speed)) best = i;
+    }
+    return static_cast<std::uint8_t>(best);
+  };
+  start.v = nearest(request_.start.v, lattice_.forwardSpeeds(), [this](int i) { return lattice_.v(i); });
+  start.omega =
+      nearest(request_.start.omega, lattice_.angularSpeeds(), [this](int i) { return lattice_.omega(i); });
+  return pool_.put(mergeKey(start), start);
+}
+
+/// Cell, heading, speeds, time and whether it still escapes, in one word.
+std::uint64_t Search::mergeKey(const SearchState& state) const {
+  const sarn::GridGeometry& g = costmap_.geometry;
+  const auto x = static_cast<std::uint64_t>((state.x - g.origin_x) / merge_size_) & 0xFFFFU;
+  const auto y = static_cast<std::uint64_t>((state.y - g.origin_y) / merge_size_) & 0xFFFFU;
+  // Bins are centred on the start's heading, which the lattice's headings are offset by.
+  const double turns = (state.theta - request_.start.theta) / (2.0 * sarn::kPi);
+  const long bin = std::lround((turns - std::floor(turns)) * params_.heading_bins) % params_.heading_bins;
+  const auto merge = static_cast<std::uint32_t>(params_.time_merge_steps);
+  const std::uint32_t time = (std::min(state.step, merge_step_) + merge - 1) / merge;
+  return x | y << 16U | static_cast<std::uint64_t>(bin) << 32U | static_cast<std::uint64_t>(state.v) << 42U |
+         static_cast<std::uint64_t>(state.omega) << 47U | static_cast<std::uint64_t>(time) << 52U |
+         static_cast<std::uint64_t>(state.escaping) << 63U;
+}
+
+bool Search::atGoalPosition(const SearchState& state) const {
+  return std::hypot(state.x - request_.goal.x, state.y - request_.goal.y) < params_.xy_goal_tolerance;
+}
+
+bool Search::isGoal(const SearchState& state) const {
+  return state.v == lattice_.standingV() && state.omega == lattice_.standingOmega() &&
+         atGoalPosition(state) &&
+         std::abs(sarn::angleDifference(state.theta, request_.goal.theta)) < params_.yaw_goal_tolerance;
+}
+
+const std::vector<MotionPrimitive>& Search::actions(StateId id) const {
+  if (id == 0) return start_actions_;
+  return lattice_.from(pool_[id].v, pool_[id].omega);
+}
+
+void Search::open(StateId id) {
+  const SearchState& state = pool_[id];
+  open_.push({static_cast<float>(state.g + weight_ * static_cast<double>(state.h)), state.h, id});
+  frontier_.add(state.f());
+}
+
+bool Search::outOfTime() {
+  if (params_.max_expansions > 0 && expansions_ >= static_cast<std::size_t>(params_.max_expansions))
+    return true;
+  if (pool_.size() >= static_cast<std::size_t>(params_.max_states)) return true;
+  return (expansions_ & 15U) == 0 && Clock::now() >= deadline_;
+}
+
+bool Search::proved() {
+  return best_goal_ != kNoState && best_cost_ <= params_.suboptimality_bound * frontier_.lowest();
+}
+
+Search::Outcome Search::run() {
+  const StateId start = addStart();
+  if (pool_[start].h == kInfinity) return Outcome::kExhausted;
+  frontier_.reset(std::max(1e-3, static_cast<double>(pool_[start].h) / 1024.0));
+  const bool standing = request_.start.v == 0.0 && request_.start.omega == 0.0;
+  if (standing && isGoal(pool_[start])) {
+    acceptGoal(start);
+    return Outcome::kProved;
+  }
+  open(start);
+  while (!open_.empty()) {
+    if (outOfTime()) return Outcome::kOutOfTime;
+    const OpenList::Entry entry = open_.pop();
+    SearchState& state = pool_[entry.id];
+    if (state.done) continue;
+    state.done = true;
+    frontier_.remove(state.f());
+    if (state.f() >= best_cost_) continue;
+    expand(entry.id);
+    if (proved()) return Outcome::kProved;
+  }
+  return best_goal_ != kNoState ? Outcome::kProved : Outcome::kExhausted;
+}
+
+void Search::expand(StateId id) {
+  ++expansions_;
+  noteProgress(id);
+  const SearchState from = pool_[id];  // the pool may move while it grows
+  const double c = std::cos(from.theta);
+  const double s = std::sin(from.theta);
+  for (const MotionPrimitive& action : actions(id)) tryAction(from, id, action, c, s);
+}
+
+void Search::noteProgress(StateId id) {
+  const SearchState& state = pool_[id];
+  if (state.h < closest_) {
+    closest_ = state.h;
+    progress_.push_back(id);
+  }
+  if (atGoalPosition(state) && (best_any_pose_ == kNoState || state.f() < pool_[best_any_pose_].f())) {
+    best_any_pose_ = id;
+  }
+}
+
+void Search::tryAction(const SearchState& from, StateId from_id, const MotionPrimitive& action, double c,
+                       double s) {
+  ++generated_;
+  SearchState next;
+  next.g = from.g + static_cast<double>(action.base_cost);
+  if (next.g >= best_cost_) return;
+  const sarn::Pose2D& end = action.samples.back();
+  next.x = from.x + c * end.x - s * end.y;
+  next.y = from.y + s * end.x + c * end.y;
+  if (!costmap_.geometry.cellAt(next.x, next.y)) return;
+  next.theta = sarn::wrapAngle(from.theta + action.dtheta);
+  next.v = action.v;
+  next.omega = action.omega;
+  next.step = from.step + 1;
+  next.parent = from_id;
+  if (!from.escaping) {  // cheap rejection before the costly one
+    const StateId known = pool_.find(mergeKey(next));
+    if (known != kNoState && pool_[known].g <= next.g) return;
+  }
+  float exposure = 0.0F;
+  next.escaping = from.escaping;
+  if (!traverse(from, action, c, s, exposure, next.escaping)) return;
+  next.g += static_cast<double>(exposure);
+  const std::uint64_t key = mergeKey(next);
+  const StateId known = pool_.find(key);
+  if (known != kNoState && pool_[known].g <= next.g) return;
+  next.h = heuristic(next.x, next.y, next.theta, next.v, next.omega);
+  if (next.h == kInfinity || next.f() >= best_cost_) return;
+  if (known != kNoState && !pool_[known].done) {
+    pool_[known].done = true;
+    frontier_.remove(pool_[known].f());
+  }
+  const StateId id = pool_.put(key, next);
+  if (isGoal(next)) {
+    acceptGoal(id);
+  } else {
+    open(id);
+  }
+}
+
+/// Collision and exposure along one action: each sample stands for its share of the time step. False: not
+/// allowed.
+bool Search::traverse(const SearchState& from, const MotionPrimitive& action, double c, double s, float& cost,
+                      bool& escaping) {
+  const sarn::GridGeometry& g = costmap_.geometry;
+  sarn::CellIndex last = g.cellAtUnbounded(from.x, from.y);
+  for (int k = 0; k < lattice_.samplesPerStep(); ++k) {
+    const sarn::Pose2D& sample = action.samples[static_cast<std::size_t>(k)];
+    const auto cell = g.cellAt(from.x + c * sample.x - s * sample.y, from.y + s * sample.x + c * sample.y);
+    if (!cell) return false;
+    const int layer = layerOf(from.step, k);
+    const std::size_t index = g.index(*cell);
+    const std::uint8_t static_cost = costmap_.static_costs[index];
+    const std::uint8_t social_cost =
+        layer < 0 ? sarn::kFreeSpace : costmap_.layers[static_cast<std::size_t>(layer)][index];
+    if (forbidden_static_[static_cost] || forbidden_social_[social_cost]) {
+      if (!escaping || !escape_.allows(last, *cell, layer)) return false;
+    } else {
+      escaping = false;
+    }
+    const float static_part = static_cost_[static_cost];
+    const float social_part = social_cost_[social_cost];
+    cost += params_.combine_with_max ? std::max(static_part, social_part) : static_part + social_part;
+    last = *cell;
+  }
+  return true;
+}
+
+/// A plan is in hand: from here on only cheaper ones count, and the weight falls so that the bound can be
+/// proved. It is taken for the optimum only when no open state has a smaller f, which is the goal test at
+/// expansion.
+void Search::acceptGoal(StateId id) {
+  best_goal_ = id;
+  best_cost_ = pool_[id].g;
+  pool_[id].done = true;
+  weight_ = weight_ > 1.1 ? 1.0 + 0.5 * (weight_ - 1.0) : 1.0;
+  open_.rebuild([this](OpenList::Entry& entry) {
+    SearchState& state = pool_[entry.id];
+    if (state.done) return false;
+    if (state.f() >= best_cost_) {
+      state.done = true;
+      frontier_.remove(state.f());
+      return false;
+    }
+    entry.key = static_cast<float>(state.g + weight_ * static_cast<double>(state.h));
+    return true;
+  });
+}
+
+void Search::finish(Outcome outcome, PlanResult& result) {
+  result.expansions = expansions_;
+  result.generated = generated_;
+  result.timed_out = outcome == Outcome::kOutOfTime;
+  if (best_goal_ == kNoState) {
+    finishPartial(outcome, result);
+    return;
+  }
+  result.status = PlanStatus::kComplete;
+  result.cost = best_cost_;
+  const double lowest = open_.empty() ? best_cost_ : frontier_.lowest();
+  result.bound = lowest > 0.0 ? std::max(1.0, best_cost_ / lowest) : 1.0;
+  result.trajectory = trajectoryTo(best_goal_);
+}
+
+/// The paper's fallback: the goal at any heading and speed, else the best expanded state; each brought to a
+/// safe stop.
+void Search::finishPartial(Outcome outcome, PlanResult& result) {
+  std::vector<StateId> candidates;
+  if (best_any_pose_ != kNoState) candidates.push_back(best_any_pose_);
+  candidates.insert(candidates.end(), progress_.rbegin(), progress_.rend());
+  if (candidates.empty() || candidates.back() != 0) candidates.push_back(0);
+  std::optional<StateId> end;
+  StateId from = 0;
+  for (const bool free_of_people : {true, false}) {
+    for (const StateId candidate : candidates) {
+      const std::optional<StateId> stop = safeStop(candidate, true);
+      if (!stop || (free_of_people && !standsFreeOfPeople(*stop))) continue;
+      end = stop;
+      from = candidate;
+      break;
+    }
+    if (end) break;
+  }
+  if (!end) end = safeStop(0, false);  // braking at once is the least harm
+  const bool closer = from != 0 && pool_[from].h < pool_[0].h;
+  if (closer && from == best_any_pose_) {
+    result.status = PlanStatus::kGoalAnyPose;
+  } else if (closer || outcome == Outcome::kOutOfTime) {
+    result.status = PlanStatus::kPartial;
+  } else {
+    result.status = PlanStatus::kNoPath;
+  }
+  result.cost = pool_[*end].g;
+  result.trajectory = trajectoryTo(*end);
+}
+
+/// Brakes from a state as hard as the lattice can, on the first arc that is free at the time; the standing
+/// state.
+std::optional<StateId> Search::safeStop(StateId from_id, bool check_collisions) {
+  const SearchState from = pool_[from_id];
+  const auto slower = [](int next, int now, int standing) {
+    return std::abs(next - standing) < std::abs(now - standing);
+  };
+  const bool off_lattice = from_id == 0;
+  const bool v_stands = from.v == lattice_.standingV() && (!off_lattice || request_.start.v == 0.0);
+  const bool omega_stands =
+      from.omega == lattice_.standingOmega() && (!off_lattice || request_.start.omega == 0.0);
+  if (v_stands && omega_stands) return from_id;
+  std::vector<MotionPrimitive> options = actions(from_id);
+  std::stable_sort(
+      options.begin(), options.end(), [this](const MotionPrimitive& a, const MotionPrimitive& b) {
+        const auto speed = [](int i, int standing) { return std::abs(i - standing); };
+        const int va = speed(a.v, lattice_.standingV());
+        const int vb = speed(b.v, lattice_.standingV());
+        if (va != vb) return va < vb;
+        return speed(a.omega, lattice_.standingOmega()) < speed(b.omega, lattice_.standingOmega());
+      });
+  for (const MotionPrimitive& action : options) {
+    if (!off_lattice) {
+      const bool brakes =
+          v_stands ? action.v == from.v && slower(action.omega, from.omega, lattice_.standingOmega())
+                   : slower(action.v, from.v, lattice_.standingV());
+      if (!brakes) continue;
+    } else if (std::abs(lattice_.v(action.v)) > std::abs(request_.start.v) + 1e-9 ||
+               std::abs(lattice_.omega(action.omega)) > std::abs(request_.start.omega) + 1e-9) {
+      continue;
+    }
+    SearchState next;
+    const double c = std::cos(from.theta);
+    const double s = std::sin(from.theta);
+    float exposure = 0.0F;
+    next.escaping = from.escaping;
+    if (check_collisions && !traverse(from, action, c, s, exposure, next.escaping)) continue;
+    const sarn::Pose2D& end = action.samples.back();
+    next.x = from.x + c * end.x - s * end.y;
+    next.y = from.y + s * end.x + c * end.y;
+    next.theta = sarn::wrapAngle(from.theta + action.dtheta);
+    next.g = from.g + static_cast<double>(action.base_cost) + static_cast<double>(exposure);
+    next.v = action.v;
+    next.omega = action.omega;
+    next.step = from.step + 1;
+    next.parent = from_id;
+    next.done = true;
+    const auto stop = safeStop(pool_.add(next), check_collisions);
+    if (stop) return stop;
+  }
+  return std::nullopt;
+}
+
+/// True when no person comes to where the robot stands, from then to the end of the horizon.
+bool Search::standsFreeOfPeople(StateId id) const {
+  const SearchState& state = pool_[id];
+  const auto cell = costmap_.geometry.cellAt(state.x, state.y);
+  if (!cell || last_layer_ < 0) return cell.has_value();
+  const std::size_t index = costmap_.geometry.index(*cell);
+  const int first = costmap_.layerAt(request_.start.t + state.step * params_.time_step);
+  for (int layer = first; layer <= last_layer_; ++layer) {
+    if (forbidden_social_[costmap_.layers[static_cast<std::size_t>(layer)][index]]) return false;
+  }
+  return true;
+}
+
+sarn::TimedTrajectory Search::trajectoryTo(StateId id) const {
+  sarn::TimedTrajectory trajectory;
+  for (StateId i = id; i != 0; i = pool_[i].parent) {
+    const SearchState& state = pool_[i];
+    trajectory.points.push_back({state.x, state.y, state.theta, lattice_.v(state.v),
+                                 lattice_.omega(state.omega),
+                                 request_.start.t + state.step * params_.time_step});
+  }
+  trajectory.points.push_back(request_.start);
+  std::reverse(trajectory.points.begin(), trajectory.points.end());
+  return trajectory;
+}
+
+}  // namespace lattice_planner
