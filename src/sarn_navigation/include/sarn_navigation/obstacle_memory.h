@@ -34,7 +34,7 @@ struct Beam {
 
 struct ObstacleMemoryParams {
   double memory_time = 2.0;        // [s] an obstacle outside the view is remembered
-  double near_memory_time = 10.0;  // [s] an obstacle within the view but nearer than the sensor can see
+  double near_memory_time = 60.0;  // [s] an obstacle within the view but nearer than the sensor can see
   double memory_radius = 2.0;      // [m] from the robot; what is further away is forgotten
 };
 

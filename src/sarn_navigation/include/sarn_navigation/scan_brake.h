@@ -15,13 +15,12 @@ struct ScanBrakeParams {
   double stop_margin = 0.05;   // [m] kept free, besides, between the stopped robot and what it stopped for
   double reaction_time =
       0.25;  // [s] from a return to the base's brake: exposure, transport, smoother, command delay
-  double deceleration = 0.8;  // [m/s^2] that the base can be relied on; below the smoother's decel limit
-  double memory_time = 2.0;   // [s] returns outside the view are remembered
-  double near_memory_time =
-      10.0;                      // [s] returns inside the view but nearer than the sensor sees are remembered
-  double memory_radius = 2.0;    // [m] around the sensor
-  double scan_timeout = 0.5;     // [s] an older scan makes the robot stand still; the same for odometry
-  double command_timeout = 0.5;  // [s] after which the last command no longer counts
+  double deceleration = 0.8;       // [m/s^2] that the base can be relied on; below the smoother's decel limit
+  double memory_time = 2.0;        // [s] returns outside the view are remembered
+  double near_memory_time = 60.0;  // [s] the same for what is in the view, but nearer than range_min
+  double memory_radius = 2.0;      // [m] around the sensor
+  double scan_timeout = 0.5;       // [s] an older scan makes the robot stand still; the same for odometry
+  double command_timeout = 0.5;    // [s] after which the last command no longer counts
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {

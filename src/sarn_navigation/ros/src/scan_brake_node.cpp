@@ -109,32 +109,34 @@ bool ScanBrakeNode::digest(const sensor_msgs::LaserScan& message) {
     }
     return true;
   }
-  const auto odom_from_sensor = lookUp(message.header.frame_id, message.header.stamp);
+  const auto odom_from_sensor = lookUp(message.header.frame_id, message.header.stamp, scan_tf_problem_);
   if (!odom_from_sensor) return false;
-  brake_.insertScan(*scan, *odom_from_sensor, message.header.stamp.toSec());
+  brake_.insertScan(*scan, odom_from_sensor->pose, message.header.stamp.toSec());
   return true;
 }
 
-std::optional<sarn::Pose2D> ScanBrakeNode::lookUp(const std::string& frame, const ros::Time& stamp) {
+std::optional<ScanBrakeNode::StampedPose> ScanBrakeNode::lookUp(const std::string& frame,
+                                                                const ros::Time& stamp,
+                                                                std::string& problem) const {
   const std::string frames = "'" + params_.odom_frame + "' -> '" + frame + "'";
   try {
-    const auto pose =
-        sarn::fromMessage(tf_buffer_.lookupTransform(params_.odom_frame, frame, stamp).transform);
-    tf_problem_ = pose ? "" : "tf " + frames + " is not a rotation about the vertical axis";
-    return pose;
+    const auto transform = tf_buffer_.lookupTransform(params_.odom_frame, frame, stamp);
+    const auto pose = sarn::fromMessage(transform.transform);
+    problem = pose ? "" : "tf " + frames + " is not a rotation about the vertical axis";
+    if (!pose) return std::nullopt;
+    return StampedPose{*pose, transform.header.stamp.toSec()};
   } catch (const tf2::TransformException& e) {
-    tf_problem_ = "no tf " + frames + ": " + e.what();
+    problem = "no tf " + frames + ": " + e.what();
     return std::nullopt;
   }
 }
 
 std::optional<sarn::Pose2D> ScanBrakeNode::basePose(double now) {
-  const auto pose = lookUp(params_.base_frame, ros::Time(0));
-  if (!pose) return std::nullopt;
-  const auto stamp =
-      tf_buffer_.lookupTransform(params_.odom_frame, params_.base_frame, ros::Time(0)).header.stamp.toSec();
-  if (now - stamp <= params_.brake.scan_timeout) return pose;
-  tf_problem_ = "tf '" + params_.odom_frame + "' -> '" + params_.base_frame + "' is too old";
+  const auto base = lookUp(params_.base_frame, ros::Time(0), base_tf_problem_);
+  if (!base) return std::nullopt;
+  if (now - base->stamp <= params_.brake.scan_timeout) return base->pose;
+  base_tf_problem_ = "tf '" + params_.odom_frame + "' -> '" + params_.base_frame + "' is older than " +
+                     std::to_string(params_.brake.scan_timeout) + " s";
   return std::nullopt;
 }
 
@@ -151,8 +153,10 @@ void ScanBrakeNode::send(const BrakeDecision& decision, double now) {
 
 void ScanBrakeNode::report(const BrakeDecision& decision) {
   if (decision.reason == BrakeReason::kObstacle || !stop_line_.ready()) return;
-  if (!tf_problem_.empty()) {
-    ROS_ERROR("the robot stands still: %s", tf_problem_.c_str());
+  const std::string& tf_problem =
+      decision.reason == BrakeReason::kNoPose ? base_tf_problem_ : scan_tf_problem_;
+  if (!tf_problem.empty()) {
+    ROS_ERROR("the robot stands still: %s", tf_problem.c_str());
   } else {
     ROS_ERROR("the robot stands still: no scan on %s for %.2f s", scan_subscriber_.getTopic().c_str(),
               params_.brake.scan_timeout);

@@ -32,7 +32,13 @@ class ScanBrakeNode {
   /// Feeds the scans whose transform has arrived.
   void digestScans(double now);
   [[nodiscard]] bool digest(const sensor_msgs::LaserScan& message);
-  [[nodiscard]] std::optional<sarn::Pose2D> lookUp(const std::string& frame, const ros::Time& stamp);
+  struct StampedPose {
+    sarn::Pose2D pose;   // in odom
+    double stamp = 0.0;  // [s]
+  };
+  /// Pose of a frame in odom; on failure nothing, and one sentence in `problem`, which a success empties.
+  [[nodiscard]] std::optional<StampedPose> lookUp(const std::string& frame, const ros::Time& stamp,
+                                                  std::string& problem) const;
   [[nodiscard]] std::optional<sarn::Pose2D> basePose(double now);
   [[nodiscard]] BrakeDecision decide(double now);
   void send(const BrakeDecision& decision, double now);
@@ -57,7 +63,8 @@ class ScanBrakeNode {
   sarn::Twist2D sent_;
   double sent_time_ = 0.0;  // [s]
   std::optional<bool> published_braking_;
-  std::string tf_problem_;  // last failed look-up; empty after one that worked
+  std::string scan_tf_problem_;  // why the last scan could not be placed; empty when it could
+  std::string base_tf_problem_;  // the same for the robot
   LineThrottle stop_line_;
   LineThrottle nan_line_;
   LineThrottle scan_line_;
