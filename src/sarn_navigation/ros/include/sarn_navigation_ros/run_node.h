@@ -11,9 +11,11 @@ namespace sarn_navigation {
 template <class Node>
 int runNode(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
+  // Outside the try block: the death of the last NodeHandle shuts logging down, before the FATAL line could
+  // be written.
+  ros::NodeHandle nh;
+  ros::NodeHandle private_nh("~");
   try {
-    ros::NodeHandle nh;
-    ros::NodeHandle private_nh("~");
     Node node(nh, private_nh);
     ros::spin();
   } catch (const std::exception& e) {
