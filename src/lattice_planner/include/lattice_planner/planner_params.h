@@ -37,13 +37,13 @@ struct PlannerParams {
   double collision_check_distance = 0.04;  // [m] between checked points of a motion, at full speed
 
   // Merging: two states of one merge cell are one to the search, the cheaper one stays, with its exact state.
-  double merge_resolution = 0.05;  // [m]
-  int heading_bins = 64;           // over the full circle, no seam
-  int time_merge_steps = 1;        // [time steps] per merge cell, while people move
+  double merge_resolution = 0.1;  // [m]
+  int heading_bins = 32;          // over the full circle, no seam
+  int time_merge_steps = 2;       // [time steps] per merge cell, while people move
 
   // Search.
   double heuristic_weight = 1.5;     // >= 1; first solution by weighted A*, then the weight falls to 1
-  double suboptimality_bound = 1.0;  // >= 1; stop as soon as cost <= bound * optimum is proved
+  double suboptimality_bound = 1.2;  // >= 1; stop as soon as cost <= bound * optimum is proved
   int max_expansions = 0;     // 0: only time limits; else a bound that gives the same answer on any machine
   int max_states = 1000000;   // memory bound: about 90 bytes each
   double table_radius = 1.0;  // [m] of the obstacle-free cost table around the goal; 0: no table
