@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <ros/ros.h>
+
+#include <cstdlib>
+#include <exception>
+
+#include "sarn_perception_ros/prediction_node.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "constant_velocity_prediction");
+  try {
+    const sarn_perception::PredictionNode node(ros::NodeHandle(), ros::NodeHandle("~"));
+    ros::spin();
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(error.what());
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}
