@@ -4,7 +4,7 @@
 
 A map is described by rectangles in metres (x right, y up, origin at the lower left corner of the building):
 walls with openings, and furniture as the depth camera sees it at its height of 0.3 m. Each becomes a pair
-NAME.pgm and NAME.yaml as map_server writes them. A test compares the committed files with this script's output.
+NAME.pgm and NAME.yaml as map_server writes them. A test compares the committed files with this output.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Tuple
+from typing import List, Tuple
 
 import numpy as np
 import yaml
@@ -103,7 +103,8 @@ def passage_width(occupancy: OccupancyMap, point: np.ndarray, reach: float = 2.0
 
 def _read_pgm(path: Path) -> np.ndarray:
     content = path.read_bytes()
-    fields, at = [], 0
+    fields: List[bytes] = []
+    at = 0
     while len(fields) < 4:
         end = at
         while end < len(content) and not content[end : end + 1].isspace():

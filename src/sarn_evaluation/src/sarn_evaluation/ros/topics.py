@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every topic and frame name this package uses."""
+
+ACTION = "move_base"
+STATUS = "/navigation_status"
+RESULT = "/episode_result"
+SCAN = "/scan"
+MAP = "/map"
+ODOMETRY = "/odom"
+COMMAND = "/mobile_base/commands/velocity"
+PEOPLE = "/people"
+PREDICTION = "/people_prediction"
+TRUTH_ODOMETRY = "/ground_truth/odom"
+TRUTH_PEOPLE = "/ground_truth/people"
+TRUTH_CONTACTS = "/ground_truth/contacts"
+ACTION_GOAL = "/move_base/goal"
+ACTION_RESULT = "/move_base/result"
+
+MAP_FRAME = "map"
+BASE_FRAME = "base_footprint"
