@@ -23,6 +23,9 @@ constexpr double kRobotDent = 0.005;        // [m] overlap that walking into the
 constexpr double kReturnRoom = 0.15;        // [m] free around a person who is put back
 constexpr double kFastestTurn = 4.0;        // [rad/s] of the torso
 constexpr double kSlowestHeading = 0.15;    // [m/s] below, the torso keeps its direction
+constexpr double kStandOffRange = 3.0;      // [m] people who take part in a stand-off
+constexpr double kSameWay = 0.3;            // cosine from which on two people walk the same way
+constexpr double kYieldChance = 0.6;        // of a person whom nobody faces
 constexpr double kGroupGain = 0.4;          // [1/s] speed per distance from the middle of the group
 constexpr double kGroupRoom = 0.5;          // [m] from the middle, for each fellow, that need not be closed
 
@@ -51,21 +54,7 @@ Vector2d limited(const Vector2d& v, double norm) {
 
 Crowd::Crowd(const Scenario& scenario, const StaticMap* map, std::uint64_t seed, const CrowdParams& params)
     : params_(params), map_(map != nullptr && map->empty() ? nullptr : map) {
-  double reach = 0.0;
-  std::vector<Vector2d> points;
-  for (const PersonSpec& spec : scenario.people) {
-    if (!isReactive(spec.model) && spec.model != PersonModel::kScripted) continue;
-    points.push_back(spec.position);
-    points.insert(points.end(), spec.waypoints.begin(), spec.waypoints.end());
-    const double max_speed = params_.max_speed_factor * spec.preferred_speed;
-    if (isReactive(spec.model))
-      reach = std::max(reach, max_speed * params_.orca.time_horizon_obst + spec.radius);
-  }
-  if (map_ != nullptr && !points.empty()) {
-    router_ = std::make_shared<const Router>(*map_, points);
-    const double tolerance = kOutlineTolerance * map_->geometry().resolution;
-    walls_ = std::make_shared<const WallIndex>(wallEdges(wallOutlines(*map_, tolerance)), reach);
-  }
+  prepareSpace(scenario);
   for (const PersonSpec& spec : scenario.people) {
     if (spec.model == PersonModel::kReplay) {
       addReplayed(spec);
@@ -76,6 +65,30 @@ Crowd::Crowd(const Scenario& scenario, const StaticMap* map, std::uint64_t seed,
   positions_.resize(people_.size());
   snapshot_.resize(people_.size());
   move(0.0, {});
+}
+
+/// Finds walls and standing people for those who walk.
+void Crowd::prepareSpace(const Scenario& scenario) {
+  static const StaticMap kOpenSpace;
+  double reach = 0.0;
+  std::vector<Vector2d> points;
+  std::vector<Disc> standing;
+  for (const PersonSpec& spec : scenario.people) {
+    if (spec.model == PersonModel::kReplay) continue;
+    points.push_back(spec.position);
+    if (spec.model == PersonModel::kStanding) {
+      standing.push_back({spec.position, spec.radius + params_.comfort_gap});
+      continue;
+    }
+    points.insert(points.end(), spec.waypoints.begin(), spec.waypoints.end());
+    const double max_speed = params_.max_speed_factor * spec.preferred_speed;
+    reach = std::max(reach, max_speed * params_.orca.time_horizon_obst + spec.radius);
+  }
+  if (points.size() == standing.size() || (map_ == nullptr && standing.empty())) return;
+  router_ = std::make_shared<const Router>(map_ != nullptr ? *map_ : kOpenSpace, points, std::move(standing));
+  if (map_ == nullptr) return;
+  const double tolerance = kOutlineTolerance * map_->geometry().resolution;
+  walls_ = std::make_shared<const WallIndex>(wallEdges(wallOutlines(*map_, tolerance)), reach);
 }
 
 int Crowd::appendState(const PersonSpec& spec, const std::string& name) {
@@ -123,7 +136,7 @@ Itinerary Crowd::findWays(const PersonSpec& spec, const Vector2d& start) const {
   for (const Vector2d& waypoint : spec.waypoints) waypoints.push_back(placeable(spec, waypoint, "waypoint"));
   return makeItinerary(start, waypoints, spec.on_arrival, [&](const Vector2d& a, const Vector2d& b) {
     std::vector<Vector2d> way{a, b};
-    if (router_ && !router_->route(a, b, spec.radius, way)) {
+    if (router_ && !router_->route(a, b, spec.radius, {}, way)) {
       throw CrowdError("people: " + spec.name + ": there is no way for a body of radius " +
                        std::to_string(spec.radius) + " m from " + at(a) + " to " + at(b));
     }
@@ -207,9 +220,9 @@ void Crowd::decide(const RobotDisc& robot) {
 
 void Crowd::decideFor(std::size_t i, const RobotDisc& robot) {
   PersonState& person = people_[i];
-  Walker& walker = walkers_[static_cast<std::size_t>(movers_[i].source)];
+  Walker& walker = walkerOf(i);
   const Vector2d alone =
-      walker.preferredVelocity(person, time_, params_.decision_period, params_, {map_, router_.get()});
+      walker.preferredVelocity(person, time_, params_.decision_period, params_, router_.get());
   if (walker.wantsToReturn()) {
     person.present = false;
     person.velocity.setZero();
@@ -220,7 +233,8 @@ void Crowd::decideFor(std::size_t i, const RobotDisc& robot) {
   const Vector2d preferred = keepUpWithGroup(i, alone);
   const Vector2d chosen = person.model == PersonModel::kOrca ? orcaChoice(i, preferred, robot)
                                                              : socialForceChoice(i, preferred, robot);
-  walker.noteProgress(person, chosen, time_, params_.decision_period, params_);
+  if (walker.losesPatience(person, chosen, time_, params_.decision_period, params_))
+    resolveStandOff(i, robot);
   movers_[i].command = chosen + separation(i, robot);
 }
 
@@ -233,13 +247,19 @@ void Crowd::findNeighbors(std::size_t i) {
 Vector2d Crowd::orcaChoice(std::size_t i, const Vector2d& preferred, const RobotDisc& robot) {
   const PersonState& person = people_[i];
   neighbors_.clear();
+  // The gap is kept, but not forced open where it is smaller already.
+  const auto avoid = [&](MovingDisc disc, double responsibility) {
+    const double gap = (disc.position - person.position).norm() - disc.radius - person.radius;
+    disc.radius += std::clamp(gap, 0.0, params_.comfort_gap);
+    neighbors_.push_back({disc, responsibility});
+  };
   if (person.reacts_to_robot) {
     const bool stands = robot.velocity.norm() < params_.standing_robot_speed;
-    neighbors_.push_back({{robot.position, robot.velocity, robot.radius}, stands ? 1.0 : 0.5});
+    avoid({robot.position, robot.velocity, robot.radius}, stands ? 1.0 : 0.5);
   }
   for (const Near& near : near_) {
     const auto j = static_cast<std::size_t>(near.index);
-    neighbors_.push_back({snapshot_[j], reacts(j) ? 0.5 : 1.0});
+    avoid(snapshot_[j], reacts(j) ? 0.5 : 1.0);
   }
   near_walls_.clear();
   const double max_speed = params_.max_speed_factor * person.preferred_speed;
@@ -318,6 +338,70 @@ Vector2d Crowd::separation(std::size_t i, const RobotDisc& robot) const {
   return limited(sum, params_.separation_speed);
 }
 
+/// Of two streams that face each other, the one with the person who comes first in the scenario goes on, and
+/// the other makes room; so a whole stream yields, not single people of both. Where nobody faces the person,
+/// chance decides.
+void Crowd::resolveStandOff(std::size_t i, const RobotDisc& robot) {
+  Walker& walker = walkerOf(i);
+  int first_of_ours = static_cast<int>(i);
+  int first_of_theirs = -1;
+  int nearest_of_theirs = -1;
+  for (const Near& near : near_) {
+    const auto j = static_cast<std::size_t>(near.index);
+    if (near.squared_distance > kStandOffRange * kStandOffRange || !reacts(j)) continue;
+    const double agreement = walkerOf(j).direction().dot(walker.direction());
+    if (agreement > kSameWay) first_of_ours = std::min(first_of_ours, near.index);
+    if (agreement >= -kSameWay) continue;
+    if (nearest_of_theirs < 0) nearest_of_theirs = near.index;
+    first_of_theirs = first_of_theirs < 0 ? near.index : std::min(first_of_theirs, near.index);
+  }
+  if (first_of_theirs < 0) {
+    walkAround(i, robot);
+  } else if (first_of_ours < first_of_theirs) {
+    walker.tryOn(params_);
+  } else {
+    makeRoom(i, static_cast<std::size_t>(nearest_of_theirs));
+  }
+}
+
+/// Past somebody who stands in the way, or a little back and aside where chance decides so.
+void Crowd::walkAround(std::size_t i, const RobotDisc& robot) {
+  Walker& walker = walkerOf(i);
+  walker.tryOn(params_);
+  if (router_ == nullptr || walker.draw() < kYieldChance) {
+    walker.stepAside(Vector2d::Zero(), time_, params_);
+    return;
+  }
+  std::vector<Disc> standing;
+  for (const Near& near : near_) {
+    const MovingDisc& other = snapshot_[static_cast<std::size_t>(near.index)];
+    if (other.velocity.norm() > params_.standing_robot_speed) continue;
+    standing.push_back({other.position, other.radius + params_.comfort_gap});
+  }
+  if (people_[i].reacts_to_robot && robot.velocity.norm() < params_.standing_robot_speed) {
+    standing.push_back({robot.position, robot.radius + params_.comfort_gap});
+  }
+  walker.takeDetour(people_[i], standing, time_, *router_);
+}
+
+/// The person and everyone near who walks the same way go back, each to the side of the others' way on which
+/// they are already.
+void Crowd::makeRoom(std::size_t i, std::size_t oncoming) {
+  const Vector2d our_way = walkerOf(i).direction();
+  const Vector2d their_way = walkerOf(oncoming).direction();
+  const Vector2d across(-their_way.y(), their_way.x());
+  const auto yield = [&](std::size_t j) {
+    const double side = across.dot(positions_[j] - positions_[oncoming]) >= 0.0 ? 1.0 : -1.0;
+    walkerOf(j).stepAside((0.5 * their_way + side * across).normalized(), time_, params_);
+  };
+  yield(i);
+  for (const Near& near : near_) {
+    const auto j = static_cast<std::size_t>(near.index);
+    if (near.squared_distance > kStandOffRange * kStandOffRange || !reacts(j)) continue;
+    if (walkerOf(j).direction().dot(our_way) > kSameWay) yield(j);
+  }
+}
+
 void Crowd::tryToReturn(std::size_t i, const RobotDisc& robot) {
   const Vector2d& start = movers_[i].start;
   PersonState& person = people_[i];
@@ -332,7 +416,7 @@ void Crowd::tryToReturn(std::size_t i, const RobotDisc& robot) {
   person.velocity.setZero();
   person.heading = movers_[i].start_heading;
   person.present = true;
-  walkers_[static_cast<std::size_t>(movers_[i].source)].restart();
+  walkerOf(i).restart();
 }
 
 // --------------------------------------------------------------------------------------------------------

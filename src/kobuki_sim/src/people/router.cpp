@@ -26,15 +26,21 @@ constexpr double kFarthestSnap = 0.6;  // [m] from a point to the nearest open c
 constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
 sarn::GridGeometry coverage(const StaticMap& map, const std::vector<Vector2d>& points) {
-  const sarn::GridGeometry& g = map.geometry();
-  Vector2d low(g.origin_x, g.origin_y);
-  Vector2d high = low + g.resolution * Vector2d(g.width, g.height);
-  for (const Vector2d& p : points) {
+  Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Vector2d high = -low;
+  const auto include = [&](const Vector2d& p) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
-  }
+  };
   sarn::GridGeometry grid;
-  grid.resolution = std::max(kFinestCell, g.resolution);
+  grid.resolution = kFinestCell;
+  if (!map.empty()) {
+    const sarn::GridGeometry& g = map.geometry();
+    include({g.origin_x, g.origin_y});
+    include({g.origin_x + g.resolution * g.width, g.origin_y + g.resolution * g.height});
+    grid.resolution = std::max(kFinestCell, g.resolution);
+  }
+  for (const Vector2d& p : points) include(p);
   grid.origin_x = low.x() - kRim;
   grid.origin_y = low.y() - kRim;
   const Vector2d cells = (high - low + Vector2d::Constant(2.0 * kRim)) / grid.resolution;
@@ -74,8 +80,8 @@ struct Open {
 
 }  // namespace
 
-Router::Router(const StaticMap& map, const std::vector<Vector2d>& points)
-    : map_(&map), clearance_(coverage(map, points), 0.0F) {
+Router::Router(const StaticMap& map, const std::vector<Vector2d>& points, std::vector<Disc> standing)
+    : map_(&map), standing_(std::move(standing)), clearance_(coverage(map, points), 0.0F) {
   for (int y = 0; y < clearance_.geometry.height; ++y) {
     for (int x = 0; x < clearance_.geometry.width; ++x) {
       clearance_.at({x, y}) = clearanceAt(map, clearance_.geometry.center({x, y}));
@@ -83,29 +89,75 @@ Router::Router(const StaticMap& map, const std::vector<Vector2d>& points)
   }
 }
 
-bool Router::route(const Vector2d& a, const Vector2d& b, double radius, std::vector<Vector2d>& way) const {
-  if (canWalkStraight(map_, a, b, radius)) {
+bool Router::route(const Vector2d& a, const Vector2d& b, double radius, const std::vector<Disc>& more,
+                   std::vector<Vector2d>& way) const {
+  if (!more.empty()) {
+    std::vector<Disc> all = standing_;
+    all.insert(all.end(), more.begin(), more.end());
+    if (routeAround(a, b, radius, all, way)) return true;
+  }
+  return routeAround(a, b, radius, standing_, way) || routeAround(a, b, radius, {}, way);
+}
+
+bool Router::sees(const Vector2d& a, const Vector2d& b, double radius) const {
+  return isStraight(a, b, radius, standing_);
+}
+
+bool Router::routeAround(const Vector2d& a, const Vector2d& b, double radius, const std::vector<Disc>& discs,
+                         std::vector<Vector2d>& way) const {
+  if (isStraight(a, b, radius, discs)) {
     way = {a, b};
     return true;
   }
   for (const double comfort : {kComfort, 0.0}) {
-    if (!search(a, b, radius + comfort, way)) continue;
-    pullTight(radius + 0.5 * comfort, way);
+    if (!search(a, b, openCells(radius, comfort, discs), way)) continue;
+    pullTight(radius + 0.5 * comfort, discs, way);
     return true;
   }
   return false;
 }
 
-bool Router::nearestOpenCell(const Vector2d& p, double clearance, CellIndex& cell) const {
-  const CellIndex middle = clearance_.geometry.cellAtUnbounded(p.x(), p.y());
-  const int reach = static_cast<int>(std::ceil(kFarthestSnap / clearance_.geometry.resolution));
+bool Router::isStraight(const Vector2d& a, const Vector2d& b, double radius,
+                        const std::vector<Disc>& discs) const {
+  const Vector2d way = b - a;
+  const double squared = way.squaredNorm();
+  for (const Disc& disc : discs) {
+    const double t = squared > 0.0 ? std::clamp((disc.center - a).dot(way) / squared, 0.0, 1.0) : 0.0;
+    const double reach = disc.radius + radius;
+    // Walking away from somebody whom the body is already near is free.
+    if (t > 0.0 && (a + t * way - disc.center).squaredNorm() < reach * reach) return false;
+  }
+  return canWalkStraight(map_, a, b, radius);
+}
+
+std::vector<char> Router::openCells(double body, double comfort, const std::vector<Disc>& discs) const {
+  const sarn::GridGeometry& grid = clearance_.geometry;
+  std::vector<char> open(grid.size());
+  for (std::size_t i = 0; i < open.size(); ++i) open[i] = clearance_.cells[i] >= body + comfort ? 1 : 0;
+  for (const Disc& disc : discs) {
+    const double reach = disc.radius + body + 0.5 * comfort;
+    const CellIndex low = grid.cellAtUnbounded(disc.center.x() - reach, disc.center.y() - reach);
+    const CellIndex high = grid.cellAtUnbounded(disc.center.x() + reach, disc.center.y() + reach);
+    for (int y = std::max(0, low.y); y <= std::min(grid.height - 1, high.y); ++y) {
+      for (int x = std::max(0, low.x); x <= std::min(grid.width - 1, high.x); ++x) {
+        if ((grid.center({x, y}) - disc.center).norm() < reach) open[grid.index({x, y})] = 0;
+      }
+    }
+  }
+  return open;
+}
+
+bool Router::nearestOpenCell(const Vector2d& p, const std::vector<char>& open, CellIndex& cell) const {
+  const sarn::GridGeometry& grid = clearance_.geometry;
+  const CellIndex middle = grid.cellAtUnbounded(p.x(), p.y());
+  const int reach = static_cast<int>(std::ceil(kFarthestSnap / grid.resolution));
   double best = kFarthestSnap;
   bool found = false;
   for (int y = middle.y - reach; y <= middle.y + reach; ++y) {
     for (int x = middle.x - reach; x <= middle.x + reach; ++x) {
       const CellIndex candidate{x, y};
-      if (!clearance_.geometry.contains(candidate) || clearance_.at(candidate) < clearance) continue;
-      const Vector2d center = clearance_.geometry.center(candidate);
+      if (!grid.contains(candidate) || open[grid.index(candidate)] == 0) continue;
+      const Vector2d center = grid.center(candidate);
       const double distance = (center - p).norm();
       if (distance >= best || !map_->segmentFree(p, center)) continue;
       best = distance;
@@ -116,17 +168,17 @@ bool Router::nearestOpenCell(const Vector2d& p, double clearance, CellIndex& cel
   return found;
 }
 
-bool Router::search(const Vector2d& a, const Vector2d& b, double clearance,
+bool Router::search(const Vector2d& a, const Vector2d& b, const std::vector<char>& open_cells,
                     std::vector<Vector2d>& way) const {
   const sarn::GridGeometry& grid = clearance_.geometry;
   CellIndex start;
   CellIndex goal;
-  if (!nearestOpenCell(a, clearance, start) || !nearestOpenCell(b, clearance, goal)) return false;
+  if (!nearestOpenCell(a, open_cells, start) || !nearestOpenCell(b, open_cells, goal)) return false;
   std::vector<float> cost(grid.size(), kUnreached);
   std::vector<std::uint32_t> parent(grid.size());
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   const auto index = [&](const CellIndex& c) { return static_cast<std::uint32_t>(grid.index(c)); };
-  const auto isOpen = [&](const CellIndex& c) { return grid.contains(c) && clearance_.at(c) >= clearance; };
+  const auto isOpen = [&](const CellIndex& c) { return grid.contains(c) && open_cells[grid.index(c)] != 0; };
   cost[index(start)] = 0.0F;
   parent[index(start)] = index(start);
   open.push({octile(start, goal), index(start)});
@@ -164,10 +216,10 @@ bool Router::search(const Vector2d& a, const Vector2d& b, double clearance,
 }
 
 /// Drops each point that the one before need not pass: gallops to a point out of sight, then halves.
-void Router::pullTight(double radius, std::vector<Vector2d>& way) const {
+void Router::pullTight(double radius, const std::vector<Disc>& discs, std::vector<Vector2d>& way) const {
   std::size_t kept = 0;
   for (std::size_t i = 0; i + 1 < way.size();) {
-    const auto sees = [&](std::size_t j) { return canWalkStraight(map_, way[i], way[j], radius); };
+    const auto sees = [&](std::size_t j) { return isStraight(way[i], way[j], radius, discs); };
     std::size_t seen = i + 1;
     std::size_t stride = 1;
     for (; seen + stride < way.size() && sees(seen + stride); stride *= 2) seen += stride;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "kobuki_sim/people/walking_space.h"
+#include "sarn_common/angles.h"
 
 namespace kobuki_sim {
 namespace {
@@ -14,6 +14,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kLookPeriod = 0.5;  // [s] between two looks whether the way ahead is straight
+constexpr double kDetourTime = 8.0;  // [s] for which a detour is not shortened
 constexpr double kLeanPeriod = 1.0;  // [s] between two draws of the lean
 constexpr double kStopTime = 0.5;    // [s] in which a person brakes at the last waypoint
 constexpr double kToleranceGrowth =
@@ -48,6 +49,7 @@ void Walker::enterLeg(int leg) {
     route_.assign(2, stay);
   }
   route_point_ = 1;
+  detour_until_ = 0.0;
 }
 
 double Walker::arrivalTolerance(const CrowdParams& params) const {
@@ -71,20 +73,23 @@ void Walker::passReachedPoints(const Vector2d& position, const CrowdParams& para
 
 /// Looks ahead: takes a shorter way when the next point but one is in sight, asks for another route when the
 /// next point is not.
-void Walker::refreshRoute(const PersonState& self, double time, const WalkerSurroundings& surroundings) {
-  if (surroundings.router == nullptr || time < next_look_) return;
+void Walker::refreshRoute(const PersonState& self, double time, const Router* router) {
+  if (router == nullptr || time < next_look_ || time < detour_until_) return;
   next_look_ = time + kLookPeriod;
   const double body = 0.95 * self.radius;
-  if (!isLastPoint() && canWalkStraight(surroundings.map, self.position, route_[route_point_ + 1], body)) {
+  if (!isLastPoint() && router->sees(self.position, route_[route_point_ + 1], body)) {
     ++route_point_;
-    route_in_doubt_ = false;
-    return;
+  } else if (route_in_doubt_ || !router->sees(self.position, route_[route_point_], body)) {
+    if (router->route(self.position, Vector2d(route_.back()), self.radius, {}, route_)) route_point_ = 1;
   }
-  if (canWalkStraight(surroundings.map, self.position, route_[route_point_], body) && !route_in_doubt_)
-    return;
   route_in_doubt_ = false;
-  if (surroundings.router->route(self.position, Vector2d(route_.back()), self.radius, route_))
-    route_point_ = 1;
+}
+
+void Walker::takeDetour(const PersonState& self, const std::vector<Disc>& obstacles, double time,
+                        const Router& router) {
+  if (!router.route(self.position, Vector2d(route_.back()), self.radius, obstacles, route_)) return;
+  route_point_ = 1;
+  detour_until_ = time + kDetourTime;
 }
 
 Vector2d Walker::lean(const Vector2d& direction, double time, const CrowdParams& params) {
@@ -96,9 +101,9 @@ Vector2d Walker::lean(const Vector2d& direction, double time, const CrowdParams&
 }
 
 Vector2d Walker::preferredVelocity(const PersonState& self, double time, double period,
-                                   const CrowdParams& params, const WalkerSurroundings& surroundings) {
+                                   const CrowdParams& params, const Router* router) {
   passReachedPoints(self.position, params);
-  refreshRoute(self, time, surroundings);
+  refreshRoute(self, time, router);
   if (isYielding(time)) return 0.6 * self.preferred_speed * yield_direction_;
   const Vector2d way = route_[route_point_] - self.position;
   const double distance = way.norm();
@@ -113,21 +118,27 @@ Vector2d Walker::preferredVelocity(const PersonState& self, double time, double 
   return speed * lean(direction_, time, params);
 }
 
-void Walker::noteProgress(const PersonState& self, const Vector2d& chosen, double time, double period,
-                          const CrowdParams& params) {
-  if (isYielding(time) || leg_ < 0 || direction_.isZero()) return;
+bool Walker::losesPatience(const PersonState& self, const Vector2d& chosen, double time, double period,
+                           const CrowdParams& params) {
+  if (isYielding(time) || leg_ < 0 || direction_.isZero()) return false;
   const bool blocked = chosen.dot(direction_) < params.blocked_speed * self.preferred_speed;
   blocked_time_ = blocked ? blocked_time_ + period : std::max(0.0, blocked_time_ - 0.5 * period);
-  if (patience_ <= 0.0) patience_ = params.patience * random_.uniform(1.0, 2.0);
-  if (blocked_time_ < patience_) return;
-  // A stand-off: some step back and aside, the others try on; the draws of the next time differ again.
-  const double side = random_.uniform() < 0.5 ? -1.0 : 1.0;
-  const double angle = side * random_.uniform(0.5, 0.95) * 3.14159;
-  if (random_.uniform() < 0.6) {
-    yield_direction_ = rotated(direction_, angle);
-    yield_until_ = time + params.yield_time * random_.uniform(1.0, 2.0);
-    route_in_doubt_ = true;
+  if (patience_ <= 0.0) tryOn(params);
+  return blocked_time_ >= patience_;
+}
+
+void Walker::stepAside(const Vector2d& direction, double time, const CrowdParams& params) {
+  yield_direction_ = direction;
+  if (direction.isZero()) {
+    const double side = random_.uniform() < 0.5 ? -1.0 : 1.0;
+    yield_direction_ = rotated(direction_, side * sarn::kPi * random_.uniform(0.5, 0.95));
   }
+  yield_until_ = time + params.yield_time * random_.uniform(1.0, 2.0);
+  route_in_doubt_ = true;
+  tryOn(params);
+}
+
+void Walker::tryOn(const CrowdParams& params) {
   patience_ = blocked_time_ + params.patience * random_.uniform(1.0, 2.0);
 }
 

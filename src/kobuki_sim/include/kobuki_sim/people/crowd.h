@@ -58,6 +58,7 @@ class Crowd {
   };
 
   // Setting up.
+  void prepareSpace(const Scenario& scenario);
   void addPerson(const PersonSpec& spec, std::uint64_t seed);
   void addReplayed(const PersonSpec& spec);
   int appendState(const PersonSpec& spec, const std::string& name);
@@ -67,6 +68,9 @@ class Crowd {
   [[nodiscard]] Itinerary findWays(const PersonSpec& spec, const Eigen::Vector2d& start) const;
 
   // Deciding.
+  [[nodiscard]] Walker& walkerOf(std::size_t i) {
+    return walkers_[static_cast<std::size_t>(movers_[i].source)];
+  }
   [[nodiscard]] bool reacts(std::size_t i) const;  // walks and avoids others, now
   void decide(const RobotDisc& robot);
   void takeSnapshot();
@@ -78,6 +82,9 @@ class Crowd {
                                                   const RobotDisc& robot);
   [[nodiscard]] Eigen::Vector2d keepUpWithGroup(std::size_t i, const Eigen::Vector2d& preferred);
   [[nodiscard]] Eigen::Vector2d separation(std::size_t i, const RobotDisc& robot) const;
+  void resolveStandOff(std::size_t i, const RobotDisc& robot);
+  void walkAround(std::size_t i, const RobotDisc& robot);
+  void makeRoom(std::size_t i, std::size_t oncoming);
   void tryToReturn(std::size_t i, const RobotDisc& robot);
 
   // Moving.

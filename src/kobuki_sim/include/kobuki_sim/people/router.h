@@ -9,26 +9,45 @@
 
 namespace kobuki_sim {
 
-/// Walkable ways around walls: A* (Hart, Nilsson and Raphael 1968) over a grid of the clearance to walls,
-/// then pulled tight like a string wherever the body fits straight through. Answers depend on the question
-/// only.
+/// Something round to walk around.
+struct Disc {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();  // [m]
+  double radius = 0.0;                               // [m] with the room to keep
+};
+
+/// Walkable ways around walls and standing people: A* (Hart, Nilsson and Raphael 1968) over a grid of the
+/// clearance to walls, then pulled tight like a string wherever the body fits straight through. Answers
+/// depend on the question only.
 class Router {
  public:
-  /// `map` is not owned. The grid covers the map and `points` [m], with a rim to walk around the outside.
-  Router(const StaticMap& map, const std::vector<Eigen::Vector2d>& points);
+  /// `map` is not owned and may be empty. The grid covers the map and `points` [m], with a rim to walk around
+  /// the outside. `standing` is walked around wherever there is a way to.
+  Router(const StaticMap& map, const std::vector<Eigen::Vector2d>& points, std::vector<Disc> standing);
 
-  /// Writes a way for a body of `radius` [m] from a to b, both included; false, and `way` as it was, when
-  /// there is none.
+  /// Writes a way for a body of `radius` [m] from a to b, both included, around the standing people and
+  /// around `more` or, where that cannot be, around walls only; false, and `way` as it was, when walls leave
+  /// none.
   [[nodiscard]] bool route(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius,
-                           std::vector<Eigen::Vector2d>& way) const;
+                           const std::vector<Disc>& more, std::vector<Eigen::Vector2d>& way) const;
+
+  /// Whether the body can walk straight from a to b.
+  [[nodiscard]] bool sees(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius) const;
 
  private:
-  [[nodiscard]] bool search(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance,
-                            std::vector<Eigen::Vector2d>& way) const;
-  [[nodiscard]] bool nearestOpenCell(const Eigen::Vector2d& p, double clearance, sarn::CellIndex& cell) const;
-  void pullTight(double radius, std::vector<Eigen::Vector2d>& way) const;
+  [[nodiscard]] bool routeAround(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius,
+                                 const std::vector<Disc>& discs, std::vector<Eigen::Vector2d>& way) const;
+  [[nodiscard]] bool nearestOpenCell(const Eigen::Vector2d& p, const std::vector<char>& open,
+                                     sarn::CellIndex& cell) const;
+  [[nodiscard]] std::vector<char> openCells(double body, double comfort,
+                                            const std::vector<Disc>& discs) const;
+  [[nodiscard]] bool search(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                            const std::vector<char>& open_cells, std::vector<Eigen::Vector2d>& way) const;
+  [[nodiscard]] bool isStraight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius,
+                                const std::vector<Disc>& discs) const;
+  void pullTight(double radius, const std::vector<Disc>& discs, std::vector<Eigen::Vector2d>& way) const;
 
   const StaticMap* map_;
+  std::vector<Disc> standing_;
   sarn::Grid<float> clearance_;  // [m] from a cell's centre to the nearest wall
 };
 

@@ -13,12 +13,6 @@
 
 namespace kobuki_sim {
 
-/// What a walker wants from the map.
-struct WalkerSurroundings {
-  const StaticMap* map;  // null: open space
-  const Router* router;  // null: open space
-};
-
 /// The intentions of one person who reacts to others: which leg of the itinerary, which point of the route,
 /// and when patience ends. It does not move anybody.
 class Walker {
@@ -29,12 +23,22 @@ class Walker {
   /// Velocity [m/s] that the person would take if alone, at `time` [s]; goes on to the next leg on arrival.
   /// `period` is the time [s] until the next call.
   [[nodiscard]] Eigen::Vector2d preferredVelocity(const PersonState& self, double time, double period,
-                                                  const CrowdParams& params,
-                                                  const WalkerSurroundings& surroundings);
+                                                  const CrowdParams& params, const Router* router);
 
-  /// Tells what came of it, for the patience: `chosen` [m/s] is the velocity that avoidance left.
-  void noteProgress(const PersonState& self, const Eigen::Vector2d& chosen, double time, double period,
-                    const CrowdParams& params);
+  /// Tells what came of it: `chosen` [m/s] is the velocity that avoidance left. True when the person has been
+  /// blocked for so long that patience ends: then stepAside() or tryOn() has to follow.
+  [[nodiscard]] bool losesPatience(const PersonState& self, const Eigen::Vector2d& chosen, double time,
+                                   double period, const CrowdParams& params);
+  /// Leaves the way for a while (drawn from yield_time), towards the unit vector `direction` or, where that
+  /// is zero, in a drawn direction backwards and aside; then looks for a way anew.
+  void stepAside(const Eigen::Vector2d& direction, double time, const CrowdParams& params);
+  /// Takes another way, around `obstacles`, and keeps to it for a while.
+  void takeDetour(const PersonState& self, const std::vector<Disc>& obstacles, double time,
+                  const Router& router);
+  /// Keeps trying for another while.
+  void tryOn(const CrowdParams& params);
+  /// A number in [0, 1) of the person's own draws.
+  [[nodiscard]] double draw() { return random_.uniform(); }
 
   /// True once the last waypoint of a person who is put back (OnArrival::kRespawn) is reached.
   [[nodiscard]] bool wantsToReturn() const { return wants_to_return_; }
@@ -51,7 +55,7 @@ class Walker {
   [[nodiscard]] bool isLastPoint() const { return route_point_ + 1 >= route_.size(); }
   [[nodiscard]] double arrivalTolerance(const CrowdParams& params) const;
   void passReachedPoints(const Eigen::Vector2d& position, const CrowdParams& params);
-  void refreshRoute(const PersonState& self, double time, const WalkerSurroundings& surroundings);
+  void refreshRoute(const PersonState& self, double time, const Router* router);
   [[nodiscard]] Eigen::Vector2d lean(const Eigen::Vector2d& direction, double time,
                                      const CrowdParams& params);
 
@@ -65,6 +69,7 @@ class Walker {
   bool wants_to_return_ = false;
   bool route_in_doubt_ = false;  // ask for another route at the next look
   double next_look_;             // [s]
+  double detour_until_ = 0.0;    // [s]
 
   Eigen::Vector2d direction_ = Eigen::Vector2d::Zero();
   double lean_angle_ = 0.0;    // [rad]
