@@ -11,6 +11,7 @@
 namespace social_costmap {
 namespace {
 
+constexpr double kRounding = 1e-4;    // [m] of distances in single precision
 constexpr double kLongestMove = 1.0;  // [s] people are not moved on by more than this
 
 double distanceToSegment(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
@@ -68,7 +69,7 @@ void ObstacleLayer::setStaticCosts(const CostGrid& costs) {
   });
   const sarn::Grid<float> distance = sarn::distanceTransform(walls);
   std::transform(distance.cells.begin(), distance.cells.end(), near_static_.begin(), [&](float d) {
-    return static_cast<std::uint8_t>(static_cast<double>(d) <= params_.static_tolerance ? 1 : 0);
+    return static_cast<std::uint8_t>(static_cast<double>(d) <= params_.static_tolerance + kRounding ? 1 : 0);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sarn_common/parameters.h"
 #include "social_costmap/layer.h"
 
 namespace social_costmap {
