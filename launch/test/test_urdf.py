@@ -14,11 +14,23 @@ import numpy as np
 import pytest
 
 URDF = Path(__file__).resolve().parents[1] / "urdf" / "turtlebot2.urdf"
+CYLINDER = "collision/geometry/cylinder"
 ROBOT = ElementTree.parse(URDF).getroot()
+
+
+def attribute(element: ElementTree.Element, key: str, path: str = ".") -> str:
+    """Attribute of the element below `element` at `path`; both must exist."""
+    found = element.find(path)
+    assert found is not None, f"{element.get('name')} lacks {path}"
+    value = found.get(key)
+    assert value is not None, f"{path} of {element.get('name')} lacks {key}"
+    return value
+
+
 JOINT_OF_CHILD: Dict[str, ElementTree.Element] = {
-    joint.find("child").get("link"): joint for joint in ROBOT.findall("joint")
+    attribute(joint, "link", "child"): joint for joint in ROBOT.findall("joint")
 }
-LINKS = {link.get("name"): link for link in ROBOT.findall("link")}
+LINKS: Dict[str, ElementTree.Element] = {attribute(link, "name"): link for link in ROBOT.findall("link")}
 
 # Frame: x, y, z [m] in base_link, then roll, pitch, yaw [rad] of the joint's chain.
 HALF_PI = 0.5 * math.pi
@@ -67,9 +79,9 @@ def pose_in(ancestor: str, frame: str) -> np.ndarray:
     matrix = np.eye(4)
     while frame != ancestor:
         joint = JOINT_OF_CHILD[frame]
-        origin = joint.find("origin")
-        matrix = transform(numbers(origin.get("xyz")), numbers(origin.get("rpy"))) @ matrix
-        frame = joint.find("parent").get("link")
+        xyz, rpy = (numbers(attribute(joint, key, "origin")) for key in ("xyz", "rpy"))
+        matrix = transform(xyz, rpy) @ matrix
+        frame = attribute(joint, "link", "parent")
     return matrix
 
 
@@ -106,20 +118,20 @@ def test_wheels_turn_forward_about_their_axis(side: str) -> None:
     joint = JOINT_OF_CHILD[f"wheel_{side}_link"]
     assert joint.get("name") == f"wheel_{side}_joint"
     assert joint.get("type") == "continuous"
-    axis = pose_in("base_link", f"wheel_{side}_link")[:3, :3] @ numbers(joint.find("axis").get("xyz"))
+    axis = pose_in("base_link", f"wheel_{side}_link")[:3, :3] @ numbers(attribute(joint, "xyz", "axis"))
     assert axis == pytest.approx(np.array([0, 1, 0]), abs=1e-9)
-    assert float(LINKS[f"wheel_{side}_link"].find("collision/geometry/cylinder").get("radius")) == 0.035
+    assert float(attribute(LINKS[f"wheel_{side}_link"], "radius", CYLINDER)) == 0.035
 
 
 def test_all_other_joints_are_fixed() -> None:
-    moving = {joint.get("name") for joint in ROBOT.findall("joint") if joint.get("type") != "fixed"}
+    moving = {attribute(joint, "name") for joint in ROBOT.findall("joint") if joint.get("type") != "fixed"}
     assert moving == {"wheel_left_joint", "wheel_right_joint"}
 
 
 def test_hull_is_the_kobukis() -> None:
-    hull = LINKS["base_link"].find("collision/geometry/cylinder")
-    assert (float(hull.get("radius")), float(hull.get("length"))) == (0.178, 0.109)
-    assert float(LINKS["base_link"].find("inertial/mass").get("value")) == 2.4
+    hull = LINKS["base_link"]
+    assert [float(attribute(hull, key, CYLINDER)) for key in ("radius", "length")] == [0.178, 0.109]
+    assert float(attribute(hull, "value", "inertial/mass")) == 2.4
 
 
 def test_poles_are_at_the_corners_of_the_stack() -> None:
@@ -133,16 +145,16 @@ def test_poles_are_at_the_corners_of_the_stack() -> None:
 
 @pytest.mark.parametrize("link", [name for name in sorted(LINKS) if LINKS[name].find("inertial") is not None])
 def test_inertia_is_that_of_the_body(link: str) -> None:
-    mass = float(LINKS[link].find("inertial/mass").get("value"))
-    inertia = LINKS[link].find("inertial/inertia")
-    cylinder = LINKS[link].find("collision/geometry/cylinder")
-    if cylinder is not None:
-        r, h = float(cylinder.get("radius")), float(cylinder.get("length"))
+    body = LINKS[link]
+    mass = float(attribute(body, "value", "inertial/mass"))
+    if body.find(CYLINDER) is not None:
+        r, h = (float(attribute(body, key, CYLINDER)) for key in ("radius", "length"))
         expected = [mass * (3 * r * r + h * h) / 12] * 2 + [0.5 * mass * r * r]
     else:
-        x, y, z = numbers(LINKS[link].find("collision/geometry/box").get("size"))
+        x, y, z = numbers(attribute(body, "size", "collision/geometry/box"))
         expected = [mass * (y * y + z * z) / 12, mass * (x * x + z * z) / 12, mass * (x * x + y * y) / 12]
-    assert [float(inertia.get(key)) for key in ("ixx", "iyy", "izz")] == pytest.approx(expected, rel=1e-4)
+    inertia = [float(attribute(body, key, "inertial/inertia")) for key in ("ixx", "iyy", "izz")]
+    assert inertia == pytest.approx(expected, rel=1e-4)
 
 
 def test_check_urdf_accepts_it() -> None:
