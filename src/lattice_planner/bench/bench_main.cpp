@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // lattice_planner_bench: plans tasks on a map file and prints one JSON line a task and one summary line a
 // condition.
+#include <time.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -87,35 +88,49 @@ double closestWalker(const sarn::TimedTrajectory& trajectory, const lattice_plan
   return closest;
 }
 
+/// CPU time of this thread [s]: what the search would take on an idle machine.
+double cpuTime() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
 struct Measured {
-  std::vector<double> search_ms, cost, duration, length, person, expansions, bound;
+  std::vector<double> search_ms, cpu_ms, cost, duration, length, person, expansions, bound;
   int reached = 0;
   int timed_out = 0;
 };
 
 void printSummary(const std::string& name, const Measured& m, std::size_t tasks) {
-  std::printf(
-      "{\"name\": \"%s\", \"tasks\": %zu, \"reached\": %d, \"timed_out\": %d, \"search_ms_median\": %.3f, "
-      "\"search_ms_p90\": %.3f, \"search_ms_p99\": %.3f, \"search_ms_max\": %.3f, \"expansions_median\": "
-      "%.0f, "
-      "\"cost_median\": %.3f, \"cost_mean\": %.4f, \"bound_median\": %.4f, \"duration_s_median\": %.3f, "
-      "\"duration_s_mean\": %.3f, "
-      "\"length_m_median\": %.3f, \"person_m_median\": %.3f, \"person_m_min\": %.3f}\n",
-      name.c_str(), tasks, m.reached, m.timed_out, quantile(m.search_ms, 0.5), quantile(m.search_ms, 0.9),
-      quantile(m.search_ms, 0.99), quantile(m.search_ms, 1.0), quantile(m.expansions, 0.5),
-      quantile(m.cost, 0.5),
-      [&m] {
-        double s = 0;
-        for (double c : m.cost) s += c;
-        return s / static_cast<double>(m.cost.size());
-      }(),
-      quantile(m.bound, 0.5), quantile(m.duration, 0.5),
-      [&m] {
-        double s = 0;
-        for (double c : m.duration) s += c;
-        return s / static_cast<double>(m.duration.size());
-      }(),
-      quantile(m.length, 0.5), quantile(m.person, 0.5), quantile(m.person, 0.0));
+  std::printf("{\"name\": \"%s\", \"tasks\": %zu, \"reached\": %d, \"timed_out\": %d", name.c_str(), tasks, m.reached,
+              m.timed_out);
+  const auto print = [](const char* key, double value) {
+    if (std::isfinite(value)) std::printf(", \"%s\": %.6g", key, value);
+  };
+  print("search_ms_median", quantile(m.search_ms, 0.5));
+  print("search_ms_p90", quantile(m.search_ms, 0.9));
+  print("search_ms_p99", quantile(m.search_ms, 0.99));
+  print("search_ms_max", quantile(m.search_ms, 1.0));
+  print("cpu_ms_median", quantile(m.cpu_ms, 0.5));
+  print("cpu_ms_p90", quantile(m.cpu_ms, 0.9));
+  print("cpu_ms_p99", quantile(m.cpu_ms, 0.99));
+  print("cpu_ms_max", quantile(m.cpu_ms, 1.0));
+  print("expansions_median", quantile(m.expansions, 0.5));
+  print("cost_median", quantile(m.cost, 0.5));
+  print("cost_mean", mean(m.cost));
+  print("bound_median", quantile(m.bound, 0.5));
+  print("duration_s_median", quantile(m.duration, 0.5));
+  print("duration_s_mean", mean(m.duration));
+  print("length_m_median", quantile(m.length, 0.5));
+  print("person_m_median", quantile(m.person, 0.5));
+  print("person_m_min", quantile(m.person, 0.0));
+  std::printf("}\n");
 }
 
 void printTask(std::size_t index, const PlanResult& r) {
@@ -139,9 +154,11 @@ void measure(const Options& options, lattice_planner::LatticePlanner& planner,
     sarn::TimedCostmapView view = social.view(static_costs);
     if (!people) view.layers.clear();
     const sarn::Pose2D& start = tasks[i].start;
+    const double cpu_begin = cpuTime();
     const PlanResult r = planner.plan(
         {{start.x, start.y, start.theta, 0.0, 0.0, kRelease}, tasks[i].goal, options.time_limit}, view);
     if (options.verbose) printTask(i, r);
+    measured.cpu_ms.push_back((cpuTime() - cpu_begin) * 1e3);
     measured.search_ms.push_back(r.search_time * 1e3);
     measured.expansions.push_back(static_cast<double>(r.expansions));
     measured.timed_out += r.timed_out ? 1 : 0;

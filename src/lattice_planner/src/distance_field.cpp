@@ -11,58 +11,40 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kBuckets = 64;
-/// Largest ratio of 16-connected to Euclidean distance: halfway (in slope) between the moves (1, 0) and (2,
-/// 1), 1 / cos(atan(1/2) / 2).
+/// Largest ratio of 16-connected to Euclidean distance: halfway (in slope) between the moves (1, 0) and (2, 1),
+/// 1 / cos(atan(1/2) / 2).
 constexpr float kDetour = 1.02749F;
 constexpr float kEndSlackCells = 1.5F;
 
-struct Move {
-  int dx;
-  int dy;
-  float length;  // [cells]
-  int via_x[2];  // cells a knight's move passes between
-  int via_y[2];
-};
+}  // namespace
 
-std::vector<Move> makeMoves() {
-  std::vector<Move> moves;
+void DistanceField::buildMoves() {
+  const std::ptrdiff_t width = task_.geometry.width;
+  moves_.clear();
   for (int dx = -2; dx <= 2; ++dx) {
     for (int dy = -2; dy <= 2; ++dy) {
       const int far = std::max(std::abs(dx), std::abs(dy));
       if (far == 0 || (far == 2 && std::min(std::abs(dx), std::abs(dy)) != 1)) continue;
-      Move move{dx, dy, static_cast<float>(std::hypot(dx, dy)), {0, 0}, {0, 0}};
+      Move move{dx, dy, static_cast<float>(std::hypot(dx, dy)), {0, 0}, {0, 0}, dy * width + dx, {0, 0}};
       if (far == 2) {
         const bool along_x = std::abs(dx) == 2;
         move.via_x[0] = along_x ? dx / 2 : 0;
         move.via_y[0] = along_x ? 0 : dy / 2;
         move.via_x[1] = along_x ? dx / 2 : dx;
         move.via_y[1] = along_x ? dy : dy / 2;
+        for (int i : {0, 1}) move.via[i] = move.via_y[i] * width + move.via_x[i];
       }
-      moves.push_back(move);
+      moves_.push_back(move);
     }
   }
-  return moves;
 }
-
-const std::vector<Move>& moves() {
-  static const std::vector<Move> all = makeMoves();
-  return all;
-}
-
-}  // namespace
 
 void DistanceField::reset(DistanceFieldTask task) {
-  const std::size_t size = task.geometry.size();
-  if (label_.size() == size) {
-    for (const std::uint32_t cell : touched_) {
-      label_[cell] = kInfinity;
-      state_[cell] = kUntouched;
-      rate_cache_[cell] = -1.0F;
-    }
+  constexpr Cell kFresh{kInfinity, -1.0F, 0};
+  if (cells_.size() == task.geometry.size()) {
+    for (const std::uint32_t cell : touched_) cells_[cell] = kFresh;
   } else {
-    label_.assign(size, kInfinity);
-    state_.assign(size, kUntouched);
-    rate_cache_.assign(size, -1.0F);
+    cells_.assign(task.geometry.size(), kFresh);
   }
   touched_.clear();
   buckets_.resize(kBuckets);
@@ -71,9 +53,14 @@ void DistanceField::reset(DistanceFieldTask task) {
   first_number_ = 0;
   pending_ = settled_ = 0;
   task_ = std::move(task);
+  buildMoves();
   const float resolution = static_cast<float>(task_.geometry.resolution);
   bucket_width_ = *std::min_element(task_.rate->begin(), task_.rate->end()) * resolution;
+  buckets_per_cost_ = 1.0F / bucket_width_;
   end_slack_ = kEndSlackCells * bucket_width_;
+  const double reach = task_.floor_radius;
+  floor_low_ = task_.geometry.cellAtUnbounded(task_.goal_x - reach, task_.goal_y - reach);
+  floor_high_ = task_.geometry.cellAtUnbounded(task_.goal_x + reach, task_.goal_y + reach);
   seed();
 }
 
@@ -87,19 +74,24 @@ void DistanceField::seed() {
       if (!task_.geometry.contains(cell)) continue;
       const Eigen::Vector2d p = task_.geometry.center(cell);
       if (std::hypot(p.x() - task_.goal_x, p.y() - task_.goal_y) > reach) continue;
-      if (relaxedRate(cell) == kInfinity) continue;
       const auto index = static_cast<std::uint32_t>(task_.geometry.index(cell));
-      touched_.push_back(index);
-      state_[index] = kOpen;
-      label_[index] = 0.0F;
+      if (rate(cell, index) == kInfinity) continue;
+      cells_[index].label = 0.0F;
       push(0.0F, index);
     }
   }
 }
 
-float DistanceField::relaxedRate(const sarn::CellIndex& cell) {
-  float& cached = rate_cache_[task_.geometry.index(cell)];
-  if (cached >= 0.0F) return cached;
+float DistanceField::rate(const sarn::CellIndex& cell, std::uint32_t index) {
+  float& known = cells_[index].rate;
+  if (known < 0.0F) {
+    known = computeRate(cell);
+    touched_.push_back(index);
+  }
+  return known;
+}
+
+float DistanceField::computeRate(const sarn::CellIndex& cell) {
   float best = kInfinity;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
@@ -110,13 +102,11 @@ float DistanceField::relaxedRate(const sarn::CellIndex& cell) {
       best = std::min(best, (*task_.rate)[cost]);
     }
   }
-  cached = best * static_cast<float>(task_.geometry.resolution);
-  touched_.push_back(static_cast<std::uint32_t>(task_.geometry.index(cell)));
-  return cached;
+  return best * static_cast<float>(task_.geometry.resolution);
 }
 
 void DistanceField::push(float key, std::uint32_t cell) {
-  const auto number = static_cast<std::uint64_t>(key / bucket_width_);
+  const auto number = static_cast<std::uint64_t>(key * buckets_per_cost_);
   const std::uint64_t offset = number > first_number_ ? number - first_number_ : 0;
   const std::size_t slot = (first_bucket_ + std::min<std::uint64_t>(offset, kBuckets - 1)) % kBuckets;
   buckets_[slot].push_back({key, cell});
@@ -133,12 +123,15 @@ bool DistanceField::advanceOneBucket() {
   for (std::size_t i = 0; i < bucket.size(); ++i) {  // grows while it is read
     const Entry entry = bucket[i];
     --pending_;
-    if (state_[entry.cell] == kSettled || entry.key > label_[entry.cell]) continue;
-    if (static_cast<std::uint64_t>(entry.key / bucket_width_) > first_number_) {  // did not fit into the ring
+    Cell& cell = cells_[entry.cell];
+    if (cell.settled != 0 || entry.key > cell.label) continue;
+    if (static_cast<std::uint64_t>(entry.key * buckets_per_cost_) > first_number_) {  // did not fit into the ring
       push(entry.key, entry.cell);
       continue;
     }
-    settle(entry);
+    cell.settled = 1;
+    ++settled_;
+    relaxNeighbours(entry.cell);
   }
   bucket.clear();
   first_bucket_ = (first_bucket_ + 1) % kBuckets;
@@ -146,40 +139,45 @@ bool DistanceField::advanceOneBucket() {
   return true;
 }
 
-void DistanceField::settle(const Entry& entry) {
-  const int width = task_.geometry.width;
-  const sarn::CellIndex cell{static_cast<int>(entry.cell) % width, static_cast<int>(entry.cell) / width};
-  state_[entry.cell] = kSettled;
-  ++settled_;
-  relax(cell, entry.key);
+void DistanceField::relaxNeighbours(std::uint32_t index) {
+  const auto width = static_cast<std::uint32_t>(task_.geometry.width);
+  const sarn::CellIndex cell{static_cast<int>(index % width), static_cast<int>(index / width)};
+  const bool interior =
+      cell.x >= 2 && cell.y >= 2 && cell.x < task_.geometry.width - 2 && cell.y < task_.geometry.height - 2;
+  if (interior) {
+    relaxNeighboursOf<true>(cell, index);
+  } else {
+    relaxNeighboursOf<false>(cell, index);
+  }
 }
 
-void DistanceField::relax(const sarn::CellIndex& from, float cost) {
-  const float rate = relaxedRate(from);
-  for (const Move& move : moves()) {
-    const sarn::CellIndex to{from.x + move.dx, from.y + move.dy};
-    if (!task_.geometry.contains(to)) continue;
-    const auto index = static_cast<std::uint32_t>(task_.geometry.index(to));
-    if (state_[index] == kSettled) continue;
-    const float next_rate = relaxedRate(to);
+template <bool kInterior>
+void DistanceField::relaxNeighboursOf(const sarn::CellIndex& cell, std::uint32_t index) {
+  const float cost = cells_[index].label;
+  const float own_rate = cells_[index].rate;
+  for (const Move& move : moves_) {
+    const sarn::CellIndex to{cell.x + move.dx, cell.y + move.dy};
+    if (!kInterior && !task_.geometry.contains(to)) continue;
+    const auto target = static_cast<std::uint32_t>(index + move.offset);
+    // No move costs less than with the target's rate at zero: most known cells need no closer look.
+    if (cells_[target].label <= cost + move.length * 0.5F * (own_rate + bucket_width_)) continue;
+    const float next_rate = rate(to, target);
     if (next_rate == kInfinity) continue;
-    if (move.length > 2.0F && relaxedRate({from.x + move.via_x[0], from.y + move.via_y[0]}) == kInfinity &&
-        relaxedRate({from.x + move.via_x[1], from.y + move.via_y[1]}) == kInfinity) {
-      continue;
+    float label = cost + 0.5F * move.length * (own_rate + next_rate);
+    if (label >= cells_[target].label) continue;
+    if (move.length > 2.0F) {
+      const float via = std::min(
+          rate({cell.x + move.via_x[0], cell.y + move.via_y[0]}, static_cast<std::uint32_t>(index + move.via[0])),
+          rate({cell.x + move.via_x[1], cell.y + move.via_y[1]}, static_cast<std::uint32_t>(index + move.via[1])));
+      if (via == kInfinity) continue;
     }
-    float label = cost + 0.5F * move.length * (rate + next_rate);
-    if (label >= label_[index]) continue;
-    if (task_.floor) {
+    if (to.x >= floor_low_.x && to.y >= floor_low_.y && to.x <= floor_high_.x && to.y <= floor_high_.y && task_.floor) {
       const float floor = task_.floor(to);
       if (floor > 0.0F) label = std::max(label, (floor + end_slack_) * kDetour);
-      if (label >= label_[index]) continue;
+      if (label >= cells_[target].label) continue;
     }
-    if (state_[index] == kUntouched) {
-      touched_.push_back(index);
-      state_[index] = kOpen;
-    }
-    label_[index] = label;
-    push(label, index);
+    cells_[target].label = label;
+    push(label, target);
   }
 }
 
@@ -188,13 +186,13 @@ float DistanceField::lowerBound(float label) const { return std::max(0.0F, label
 float DistanceField::at(const sarn::CellIndex& cell) {
   const std::size_t index = task_.geometry.index(cell);
   unsigned turns = 0;
-  while (state_[index] != kSettled) {
+  while (cells_[index].settled == 0) {
     if ((++turns & 15U) == 0 && keep_going_ && !keep_going_()) {
       return lowerBound(static_cast<float>(first_number_) * bucket_width_);
     }
     if (!advanceOneBucket()) return kInfinity;
   }
-  return lowerBound(label_[index]);
+  return lowerBound(cells_[index].label);
 }
 
 }  // namespace lattice_planner

@@ -154,6 +154,7 @@ void Search::prepareDistanceField() {
     task.exempt = [this](const sarn::CellIndex& cell) { return escape_.exemptsStatic(cell); };
   }
   if (!table_.empty()) {
+    task.floor_radius = table_.radius();
     task.floor = [this](const sarn::CellIndex& cell) {
       const Eigen::Vector2d p = goal_from_map_ * costmap_.geometry.center(cell);
       return table_.floorAt(p.x(), p.y());

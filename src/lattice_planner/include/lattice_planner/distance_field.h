@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -24,6 +25,7 @@ struct DistanceFieldTask {
   /// Lower bound of the cost to go from anywhere in a cell, known otherwise; 0 when nothing is known. May be
   /// empty.
   std::function<float(const sarn::CellIndex&)> floor;
+  double floor_radius = 0.0;  // [m] around the goal within which floor is asked
 };
 
 /// Lower bound of the cost to go from each cell, by Dijkstra from the goal over the static layer; people,
@@ -46,26 +48,40 @@ class DistanceField {
   [[nodiscard]] std::size_t settled() const { return settled_; }
 
  private:
+  struct Cell {
+    float label;
+    float rate;  // cheapest of the 3 x 3 neighbourhood [cost per cell edge]; infinity: all blocked; < 0: not known yet
+    std::uint32_t settled;
+  };
   struct Entry {
     float key;
     std::uint32_t cell;
   };
-  enum : std::uint8_t { kUntouched = 0, kOpen = 1, kSettled = 2 };
+  struct Move {
+    int dx;
+    int dy;
+    float length;  // [cells]
+    int via_x[2];  // cells that a knight's move passes between
+    int via_y[2];
+    std::ptrdiff_t offset;  // in the array of cells
+    std::ptrdiff_t via[2];
+  };
 
   void seed();
+  void buildMoves();
   bool advanceOneBucket();
-  void settle(const Entry& entry);
-  void relax(const sarn::CellIndex& from, float cost);
+  void relaxNeighbours(std::uint32_t index);
+  template <bool kInterior>
+  void relaxNeighboursOf(const sarn::CellIndex& cell, std::uint32_t index);
   void push(float key, std::uint32_t cell);
-  /// Cheapest rate of the 3 x 3 neighbourhood [cost per cell edge]; infinity when it is all blocked.
-  [[nodiscard]] float relaxedRate(const sarn::CellIndex& cell);
+  [[nodiscard]] float rate(const sarn::CellIndex& cell, std::uint32_t index);
+  [[nodiscard]] float computeRate(const sarn::CellIndex& cell);
   [[nodiscard]] float lowerBound(float label) const;
 
   DistanceFieldTask task_;
   std::function<bool()> keep_going_;
-  std::vector<float> label_;
-  std::vector<float> rate_cache_;  // negative: not known yet
-  std::vector<std::uint8_t> state_;
+  std::vector<Move> moves_;
+  std::vector<Cell> cells_;
   std::vector<std::uint32_t> touched_;       // cells to clean at the next reset
   std::vector<std::vector<Entry>> buckets_;  // ring, each one straight cheapest step wide
   std::size_t first_bucket_ = 0;
@@ -73,7 +89,10 @@ class DistanceField {
   std::size_t pending_ = 0;
   std::size_t settled_ = 0;
   float bucket_width_ = 1.0F;
+  float buckets_per_cost_ = 1.0F;
   float end_slack_ = 0.0F;
+  sarn::CellIndex floor_low_;  // box of cells that floor is asked for
+  sarn::CellIndex floor_high_;
 };
 
 }  // namespace lattice_planner
