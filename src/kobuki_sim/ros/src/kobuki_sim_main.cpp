@@ -11,8 +11,9 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "kobuki_sim");
+  // Outside the try block: the death of the last NodeHandle shuts logging down, before the FATAL line is out.
+  ros::NodeHandle nh;
   try {
-    ros::NodeHandle nh;
     const kobuki_sim::Parameters params = kobuki_sim::readParameters(ros::NodeHandle("~"));
     const kobuki_sim::Scenario scenario = kobuki_sim::loadScenario(params.node.scenario);
     const std::uint64_t seed =

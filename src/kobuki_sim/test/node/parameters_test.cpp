@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "kobuki_sim_ros/parameters.h"
+
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+namespace kobuki_sim {
+namespace {
+
+TEST(NodeParams, theShippedYamlNamesEveryFieldButTheScenario) {
+  YAML::Node node = YAML::LoadFile("config/kobuki_sim.yaml");
+  EXPECT_TRUE(node["lockstep"].IsSequence());
+  node.remove("lockstep");
+  NodeParams params;
+  params.scenario = "office.yaml";
+  EXPECT_EQ(sarn::setFromYaml(node, params), std::vector<std::string>{});
+  for (const auto& name : sarn::fieldNames<NodeParams>()) {
+    if (name != "scenario") EXPECT_TRUE(node[name]) << name;
+  }
+}
+
+TEST(NodeParams, theScenarioMustBeGiven) {
+  const auto problems = sarn::problems(NodeParams{});
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].find("scenario"), 0U);
+}
+
+TEST(NodeParams, batteryLevelsMustGrow) {
+  NodeParams params;
+  params.scenario = "office.yaml";
+  params.battery_low = 13.0;
+  EXPECT_EQ(sarn::problems(params).size(), 1U);
+}
+
+}  // namespace
+}  // namespace kobuki_sim
