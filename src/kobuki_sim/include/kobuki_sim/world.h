@@ -21,13 +21,14 @@ class World {
  public:
   static constexpr double kDefaultTimeStep = 0.01;  // [s]
 
-  /// Loads the scenario's map. Throws ScenarioError, sarn::MapError, or std::invalid_argument on bad
-  /// parameters.
+  /// Loads the scenario's map. Throws ScenarioError, sarn::MapError, CrowdError, RecordingError, or
+  /// std::invalid_argument on bad parameters.
   World(const Scenario& scenario, std::uint64_t seed, const KobukiParams& params = {},
-        double time_step = kDefaultTimeStep);
+        const CrowdParams& crowd_params = {}, double time_step = kDefaultTimeStep);
   /// The same on a map that is loaded already (and may be shared by many worlds); null: open space.
   World(const Scenario& scenario, std::shared_ptr<const StaticMap> map, std::uint64_t seed,
-        const KobukiParams& params = {}, double time_step = kDefaultTimeStep);
+        const KobukiParams& params = {}, const CrowdParams& crowd_params = {},
+        double time_step = kDefaultTimeStep);
 
   /// Advances by one time step.
   void step();
@@ -65,11 +66,10 @@ class World {
   [[nodiscard]] std::uint64_t digest() const;
 
  private:
-  void moveRobot(const sarn::Twist2D& wanted);
-
   Scenario original_;
   std::shared_ptr<const StaticMap> map_;
   KobukiParams params_;
+  CrowdParams crowd_params_;
   double time_step_;  // [s]
   std::uint64_t seed_;
   Scenario scenario_;
