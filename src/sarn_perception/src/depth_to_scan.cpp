@@ -101,10 +101,13 @@ void DepthToScan::prepareColumns(const PinholeCamera& camera, PlanarScan& scan) 
   slant_.resize(width);
   beam_.resize(width);
   columns_.resize(width);
+  // Column 0 lies on the last beam; rounding of the message's floats (4e-5 of a beam) must not move it off.
+  constexpr double kRounding = 1e-3;
   for (std::size_t u = 0; u < width; ++u) {
     const double tangent = (static_cast<double>(u) - camera.cx) / camera.fx;
     const double place = (-std::atan(tangent) - static_cast<double>(scan.angle_min)) /
-                         static_cast<double>(scan.angle_increment);
+                             static_cast<double>(scan.angle_increment) +
+                         kRounding;
     slant_[u] = static_cast<float>(std::sqrt(1.0 + tangent * tangent));
     beam_[u] = place > -1.0 && place < static_cast<double>(width) ? static_cast<int>(place) : -1;
   }
