@@ -108,8 +108,8 @@ struct Measured {
 };
 
 void printSummary(const std::string& name, const Measured& m, std::size_t tasks) {
-  std::printf("{\"name\": \"%s\", \"tasks\": %zu, \"reached\": %d, \"timed_out\": %d", name.c_str(), tasks, m.reached,
-              m.timed_out);
+  std::printf("{\"name\": \"%s\", \"tasks\": %zu, \"reached\": %d, \"timed_out\": %d", name.c_str(), tasks,
+              m.reached, m.timed_out);
   const auto print = [](const char* key, double value) {
     if (std::isfinite(value)) std::printf(", \"%s\": %.6g", key, value);
   };

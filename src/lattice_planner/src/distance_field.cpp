@@ -11,8 +11,8 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kBuckets = 64;
-/// Largest ratio of 16-connected to Euclidean distance: halfway (in slope) between the moves (1, 0) and (2, 1),
-/// 1 / cos(atan(1/2) / 2).
+/// Largest ratio of 16-connected to Euclidean distance: halfway (in slope) between the moves (1, 0) and (2,
+/// 1), 1 / cos(atan(1/2) / 2).
 constexpr float kDetour = 1.02749F;
 constexpr float kEndSlackCells = 1.5F;
 
@@ -125,7 +125,8 @@ bool DistanceField::advanceOneBucket() {
     --pending_;
     Cell& cell = cells_[entry.cell];
     if (cell.settled != 0 || entry.key > cell.label) continue;
-    if (static_cast<std::uint64_t>(entry.key * buckets_per_cost_) > first_number_) {  // did not fit into the ring
+    if (static_cast<std::uint64_t>(entry.key * buckets_per_cost_) >
+        first_number_) {  // did not fit into the ring
       push(entry.key, entry.cell);
       continue;
     }
@@ -166,12 +167,14 @@ void DistanceField::relaxNeighboursOf(const sarn::CellIndex& cell, std::uint32_t
     float label = cost + 0.5F * move.length * (own_rate + next_rate);
     if (label >= cells_[target].label) continue;
     if (move.length > 2.0F) {
-      const float via = std::min(
-          rate({cell.x + move.via_x[0], cell.y + move.via_y[0]}, static_cast<std::uint32_t>(index + move.via[0])),
-          rate({cell.x + move.via_x[1], cell.y + move.via_y[1]}, static_cast<std::uint32_t>(index + move.via[1])));
+      const float via = std::min(rate({cell.x + move.via_x[0], cell.y + move.via_y[0]},
+                                      static_cast<std::uint32_t>(index + move.via[0])),
+                                 rate({cell.x + move.via_x[1], cell.y + move.via_y[1]},
+                                      static_cast<std::uint32_t>(index + move.via[1])));
       if (via == kInfinity) continue;
     }
-    if (to.x >= floor_low_.x && to.y >= floor_low_.y && to.x <= floor_high_.x && to.y <= floor_high_.y && task_.floor) {
+    if (to.x >= floor_low_.x && to.y >= floor_low_.y && to.x <= floor_high_.x && to.y <= floor_high_.y &&
+        task_.floor) {
       const float floor = task_.floor(to);
       if (floor > 0.0F) label = std::max(label, (floor + end_slack_) * kDetour);
       if (label >= cells_[target].label) continue;
@@ -193,6 +196,19 @@ float DistanceField::at(const sarn::CellIndex& cell) {
     if (!advanceOneBucket()) return kInfinity;
   }
   return lowerBound(cells_[index].label);
+}
+
+void DistanceField::computeTo(float bound) {
+  unsigned turns = 0;
+  while (lowerBound(static_cast<float>(first_number_) * bucket_width_) < bound) {
+    if ((++turns & 15U) == 0 && keep_going_ && !keep_going_()) return;
+    if (!advanceOneBucket()) return;
+  }
+}
+
+float DistanceField::known(const sarn::CellIndex& cell) const {
+  const Cell& c = cells_[task_.geometry.index(cell)];
+  return c.settled != 0 ? lowerBound(c.label) : kInfinity;
 }
 
 }  // namespace lattice_planner

@@ -12,6 +12,7 @@ namespace lattice_planner {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr double kLeastImprovement = 500.0;       // [expansions]
 constexpr double kFullCost = 252.0;               // the largest cost that may be entered
 constexpr std::uint8_t kUnknownCountsAs = 126;    // when it may be entered
 constexpr std::uint32_t kLongestTimeAxis = 2000;  // [time steps]
@@ -33,7 +34,8 @@ bool usable(const sarn::TimedCostmapView& costmap) {
 
 }  // namespace
 
-Search::Search(const PlannerParams& params) : params_(params), lattice_(params), table_(params, lattice_) {
+Search::Search(const PlannerParams& params)
+    : params_(params), lattice_(params), table_(params, lattice_), alignment_(lattice_) {
   const double sample_time = params.time_step / lattice_.samplesPerStep();
   for (std::size_t cost = 0; cost < 256; ++cost) {
     const bool unknown = cost == sarn::kNoInformation;
@@ -44,6 +46,8 @@ Search::Search(const PlannerParams& params) : params_(params), lattice_(params),
     const double social_part = unknown ? 0.0 : static_cast<double>(cost) / kFullCost;
     static_cost_[cost] = static_cast<float>(params.static_weight * static_part * sample_time);
     social_cost_[cost] = static_cast<float>(params.social_weight * social_part * sample_time);
+    static_rate_[cost] = static_cast<float>(params.static_weight * static_part);
+    social_rate_[cost] = static_cast<float>(params.social_weight * social_part);
     static_per_metre_[cost] = static_cast<float>(lattice_.costPerMetre() +
                                                  params.static_weight * static_part / lattice_.maxSpeed());
   }
@@ -101,7 +105,7 @@ void Search::prepare(const PlanRequest& request, const sarn::TimedCostmapView& c
   best_goal_ = best_any_pose_ = kNoState;
   best_cost_ = std::numeric_limits<double>::infinity();
   closest_ = kInfinity;
-  expansions_ = generated_ = expansions_at_weight_ = 0;
+  expansions_ = generated_ = enough_expansions_ = 0;
   prepareTimeAxis();
   const sarn::CellIndex start = costmap_.geometry.cellAtUnbounded(request.start.x, request.start.y);
   escape_.reset(costmap_, forbidden_static_, forbidden_social_, start, request.start.t,
@@ -164,6 +168,37 @@ void Search::prepareDistanceField() {
   field_.reset(std::move(task));
 }
 
+void Search::preparePeopleField() {
+  SpaceTimeTask task;
+  task.costmap = &costmap_;
+  task.static_rate = &static_rate_;
+  task.social_rate = &social_rate_;
+  task.forbidden_static = &forbidden_static_;
+  task.forbidden_social = &forbidden_social_;
+  task.time_weight = params_.time_weight;
+  task.length_weight = params_.length_weight;
+  task.max_speed = lattice_.maxSpeed();
+  task.start_x = request_.start.x;
+  task.start_y = request_.start.y;
+  task.start_time = request_.start.t;
+  task.end_time = request_.start.t + merge_step_ * params_.time_step;
+  people_field_.reset(task, field_);
+}
+
+/// Cost to go with people and with turning into the direction of the way; near the goal the table knows
+/// better.
+float Search::estimate(const SearchState& state) const {
+  const SpaceTimeField::Estimate place =
+      people_field_.at(state.x, state.y, request_.start.t + state.step * params_.time_step);
+  const Eigen::Vector2d p = goal_from_map_ * Eigen::Vector2d(state.x, state.y);
+  if (place.cost == kInfinity) return state.h;
+  if (table_.covers(p.x(), p.y())) return std::max(state.h, place.cost);
+  const double slope = std::hypot(place.slope_x, place.slope_y);
+  const auto share = static_cast<float>(std::min(1.0, slope / lattice_.costPerMetre()));
+  const double direction = std::atan2(-place.slope_y, -place.slope_x);
+  return std::max(state.h, place.cost + share * alignment_.at(state.theta - direction, state.v, state.omega));
+}
+
 float Search::heuristic(double x, double y, double theta, int v, int omega) {
   const float far = field_.at(costmap_.geometry.cellAtUnbounded(x, y));
   const Eigen::Vector2d p = goal_from_map_ * Eigen::Vector2d(x, y);
@@ -176,6 +211,7 @@ StateId Search::addStart() {
   start.y = request_.start.y;
   start.theta = request_.start.theta;
   start.h = field_.at(costmap_.geometry.cellAtUnbounded(start.x, start.y));
+  start.estimate = start.h;
   start.escaping = escape_.active();
   const auto nearest = [](double speed, int count, const auto& value) {
     int best = 0;
@@ -222,7 +258,7 @@ const std::vector<MotionPrimitive>& Search::actions(StateId id) const {
 
 void Search::open(StateId id) {
   const SearchState& state = pool_[id];
-  open_.push({static_cast<float>(state.g + weight_ * static_cast<double>(state.h)), state.h, id});
+  open_.push({static_cast<float>(state.g + weight_ * static_cast<double>(state.estimate)), state.h, id});
   frontier_.add(state.f());
 }
 
@@ -246,6 +282,7 @@ Search::Outcome Search::run() {
     acceptGoal(start);
     return Outcome::kProved;
   }
+  preparePeopleField();
   open(start);
   while (!open_.empty()) {
     if (outOfTime()) return Outcome::kOutOfTime;
@@ -257,6 +294,7 @@ Search::Outcome Search::run() {
     if (state.f() >= best_cost_) continue;
     expand(entry.id);
     if (proved()) return Outcome::kProved;
+    if (enough_expansions_ > 0 && expansions_ >= enough_expansions_) return Outcome::kGoodEnough;
   }
   return best_goal_ != kNoState ? Outcome::kProved : Outcome::kExhausted;
 }
@@ -309,6 +347,7 @@ void Search::tryAction(const SearchState& from, StateId from_id, const MotionPri
   if (known != kNoState && pool_[known].g <= next.g) return;
   next.h = heuristic(next.x, next.y, next.theta, next.v, next.omega);
   if (next.h == kInfinity || next.f() >= best_cost_) return;
+  next.estimate = estimate(next);
   if (known != kNoState && !pool_[known].done) {
     pool_[known].done = true;
     frontier_.remove(pool_[known].f());
@@ -353,6 +392,10 @@ bool Search::traverse(const SearchState& from, const MotionPrimitive& action, do
 /// proved. It is taken for the optimum only when no open state has a smaller f, which is the goal test at
 /// expansion.
 void Search::acceptGoal(StateId id) {
+  if (best_goal_ == kNoState && params_.improvement_effort > 0.0) {
+    const double more = params_.improvement_effort * static_cast<double>(expansions_) + kLeastImprovement;
+    enough_expansions_ = expansions_ + static_cast<std::size_t>(more);
+  }
   best_goal_ = id;
   best_cost_ = pool_[id].g;
   pool_[id].done = true;
@@ -365,7 +408,7 @@ void Search::acceptGoal(StateId id) {
       frontier_.remove(state.f());
       return false;
     }
-    entry.key = static_cast<float>(state.g + weight_ * static_cast<double>(state.h));
+    entry.key = static_cast<float>(state.g + weight_ * static_cast<double>(state.estimate));
     return true;
   });
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "lattice_planner/alignment_table.h"
 #include "lattice_planner/distance_field.h"
 #include "lattice_planner/escape_zone.h"
 #include "lattice_planner/goal_table.h"
@@ -14,6 +15,7 @@
 #include "lattice_planner/open_list.h"
 #include "lattice_planner/plan_types.h"
 #include "lattice_planner/planner_params.h"
+#include "lattice_planner/space_time_field.h"
 #include "lattice_planner/state_pool.h"
 #include "sarn_common/timed_costmap_view.h"
 
@@ -29,7 +31,7 @@ class Search {
 
  private:
   using Clock = std::chrono::steady_clock;
-  enum class Outcome { kProved, kExhausted, kOutOfTime };
+  enum class Outcome { kProved, kExhausted, kGoodEnough, kOutOfTime };
 
   // Preparation.
   [[nodiscard]] std::optional<PlanStatus> refuse(const PlanRequest& request,
@@ -37,6 +39,7 @@ class Search {
   void prepare(const PlanRequest& request, const sarn::TimedCostmapView& costmap);
   void prepareTimeAxis();
   void prepareDistanceField();
+  void preparePeopleField();
   [[nodiscard]] StateId addStart();
 
   // Search.
@@ -51,6 +54,7 @@ class Search {
   [[nodiscard]] bool outOfTime();
   [[nodiscard]] bool proved();
   [[nodiscard]] float heuristic(double x, double y, double theta, int v, int omega);
+  [[nodiscard]] float estimate(const SearchState& state) const;
   [[nodiscard]] bool atGoalPosition(const SearchState& state) const;
   [[nodiscard]] bool isGoal(const SearchState& state) const;
   [[nodiscard]] std::uint64_t mergeKey(const SearchState& state) const;
@@ -67,7 +71,9 @@ class Search {
   PlannerParams params_;
   MotionLattice lattice_;
   GoalTable table_;
+  AlignmentTable alignment_;
   DistanceField field_;
+  SpaceTimeField people_field_;
   EscapeZone escape_;
   StatePool pool_;
   OpenList open_;
@@ -76,6 +82,8 @@ class Search {
   std::array<bool, 256> forbidden_social_{};
   std::array<float, 256> static_cost_{};       // of one sample's time in a cell
   std::array<float, 256> social_cost_{};       // likewise
+  std::array<float, 256> static_rate_{};       // [1/s]
+  std::array<float, 256> social_rate_{};       // [1/s]
   std::array<float, 256> static_per_metre_{};  // least cost of one metre in a cell
 
   // Of the current request.
@@ -95,7 +103,7 @@ class Search {
   float closest_ = 0.0F;
   std::size_t expansions_ = 0;
   std::size_t generated_ = 0;
-  std::size_t expansions_at_weight_ = 0;
+  std::size_t enough_expansions_ = 0;  // 0: no limit
   Clock::time_point deadline_;
 };
 

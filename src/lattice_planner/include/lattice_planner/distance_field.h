@@ -44,13 +44,18 @@ class DistanceField {
   /// `keep_going` is asked now and then: false ends the computation; then the answer is the bound known so
   /// far (the wave's front).
   [[nodiscard]] float at(const sarn::CellIndex& cell);
+  /// Goes on until every cell with a smaller bound is known.
+  void computeTo(float bound);
+  /// Bound of a cell as far as it is known; infinity when the computation has not come to it.
+  [[nodiscard]] float known(const sarn::CellIndex& cell) const;
   void setKeepGoing(std::function<bool()> keep_going) { keep_going_ = std::move(keep_going); }
   [[nodiscard]] std::size_t settled() const { return settled_; }
 
  private:
   struct Cell {
     float label;
-    float rate;  // cheapest of the 3 x 3 neighbourhood [cost per cell edge]; infinity: all blocked; < 0: not known yet
+    float rate;  // cheapest of the 3 x 3 neighbourhood [cost per cell edge]; infinity: all blocked; < 0: not
+                 // known yet
     std::uint32_t settled;
   };
   struct Entry {

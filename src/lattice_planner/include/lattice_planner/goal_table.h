@@ -20,6 +20,8 @@ class GoalTable {
   GoalTable(const PlannerParams& params, const MotionLattice& lattice);
 
   [[nodiscard]] bool empty() const { return radius_ <= 0.0; }
+  /// True where at() interpolates: within the radius of the goal.
+  [[nodiscard]] bool covers(double x, double y) const { return inside(x, y); }
   [[nodiscard]] double radius() const { return radius_; }  // [m]
   /// Lower bound for the pose in the goal's frame and lattice speeds; the simple bound outside the radius.
   [[nodiscard]] float at(double x, double y, double theta, int v, int omega) const;

@@ -42,11 +42,13 @@ struct PlannerParams {
   int time_merge_steps = 2;       // [time steps] per merge cell, while people move
 
   // Search.
-  double heuristic_weight = 1.5;     // >= 1; first solution by weighted A*, then the weight falls to 1
-  double suboptimality_bound = 1.2;  // >= 1; stop as soon as cost <= bound * optimum is proved
-  int max_expansions = 0;     // 0: only time limits; else a bound that gives the same answer on any machine
-  int max_states = 1000000;   // memory bound: about 90 bytes each
-  double table_radius = 1.0;  // [m] of the obstacle-free cost table around the goal; 0: no table
+  double heuristic_weight = 1.2;     // >= 1; first solution by weighted A*, then the weight falls to 1
+  double suboptimality_bound = 1.0;  // >= 1; stop as soon as cost <= bound * optimum is proved
+  double improvement_effort =
+      1.0;                 // stop improving after this many times the first solution's work; 0: no such limit
+  int max_expansions = 0;  // 0: only time limits; else a bound that gives the same answer on any machine
+  int max_states = 1000000;       // memory bound: about 90 bytes each
+  double table_radius = 1.0;      // [m] of the obstacle-free cost table around the goal; 0: no table
   double table_resolution = 0.1;  // [m]
   int table_headings = 48;
 
@@ -77,6 +79,7 @@ struct PlannerParams {
     v("time_merge_steps", p.time_merge_steps, {1.0, 100.0});
     v("heuristic_weight", p.heuristic_weight, {1.0, 100.0});
     v("suboptimality_bound", p.suboptimality_bound, {1.0, 100.0});
+    v("improvement_effort", p.improvement_effort, {0.0, 1e6});
     v("max_expansions", p.max_expansions, {0.0, 2e9});
     v("max_states", p.max_states, {1000.0, 5e7});
     v("table_radius", p.table_radius, {0.0, 5.0});

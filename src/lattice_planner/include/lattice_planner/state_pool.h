@@ -13,11 +13,12 @@ inline constexpr StateId kNoState = 0xFFFFFFFFU;
 /// A node of the search: the exact state, never changed once made. A cheaper way into the same merge cell
 /// makes a new record, so that the poses along a path always follow from each other.
 struct SearchState {
-  double x = 0.0;      // [m]
-  double y = 0.0;      // [m]
-  double theta = 0.0;  // [rad] (-pi, pi]
-  double g = 0.0;      // cost so far
-  float h = 0.0F;      // lower bound of the cost to go
+  double x = 0.0;         // [m]
+  double y = 0.0;         // [m]
+  double theta = 0.0;     // [rad] (-pi, pi]
+  double g = 0.0;         // cost so far
+  float h = 0.0F;         // lower bound of the cost to go
+  float estimate = 0.0F;  // what the cost to go will probably be
   StateId parent = kNoState;
   std::uint32_t step = 0;  // [time steps] since the start
   std::uint8_t v = 0;      // index into the lattice's speeds
