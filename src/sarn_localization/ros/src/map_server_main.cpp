@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <exception>
+#include <optional>
 
 #include "sarn_common/map_io.h"
 #include "sarn_common_ros/conversions.h"
@@ -10,17 +11,33 @@
 #include "sarn_localization/parameters.h"
 #include "sarn_localization_ros/map_server.h"
 
+namespace {
+
+/// The map; nothing, after a FATAL line, when the file cannot be used. Needs no master.
+std::optional<sarn::OccupancyMap> loadOrComplain(const char* file) {
+  try {
+    return sarn::loadMap(file);
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(error.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   ros::init(argc, argv, "map_server");
   if (argc != 2) {
     ROS_FATAL("usage: map_server MAP.yaml (one argument: the map's YAML file)");
     return EXIT_FAILURE;
   }
+  const auto map = loadOrComplain(argv[1]);
+  if (!map) return EXIT_FAILURE;
+  // Outside the try block: the death of the last NodeHandle shuts logging down, before the FATAL line is out.
+  ros::NodeHandle nh;
   try {
-    const sarn::OccupancyMap map = sarn::loadMap(argv[1]);
-    ros::NodeHandle nh;
     const auto params = sarn::readParameters<sarn_localization::MapServerParams>(ros::NodeHandle("~"));
-    nav_msgs::OccupancyGrid message = toMessage(map, params.frame_id);
+    nav_msgs::OccupancyGrid message = toMessage(*map, params.frame_id);
     message.header.stamp = message.info.map_load_time = ros::Time::now();
     const sarn_localization::MapServer server(nh, message);
     ROS_INFO_STREAM("serving " << argv[1] << ": " << message.info.width << " x " << message.info.height

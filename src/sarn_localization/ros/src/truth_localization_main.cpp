@@ -9,8 +9,9 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "truth_localization");
+  // Outside the try block: the death of the last NodeHandle shuts logging down, before the FATAL line is out.
+  ros::NodeHandle nh;
   try {
-    ros::NodeHandle nh;
     auto params = sarn::readParameters<sarn_localization::TruthLocalizationParams>(ros::NodeHandle("~"));
     const sarn_localization::TruthLocalization localization(nh, params);
     ros::spin();
