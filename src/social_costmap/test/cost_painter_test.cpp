@@ -33,7 +33,9 @@ void expectCosts(const std::vector<std::uint8_t>& cells, double cutoff, Expected
 void expectNothingOutside(const CellRect& rect, const std::vector<std::uint8_t>& cells) {
   for (int y = 0; y < kGrid.height; ++y) {
     for (int x = 0; x < kGrid.width; ++x) {
-      if (!rect.contains({x, y})) ASSERT_EQ(0, cells[kGrid.index({x, y})]) << x << ", " << y;
+      if (!rect.contains({x, y})) {
+        ASSERT_EQ(0, cells[kGrid.index({x, y})]) << x << ", " << y;
+      }
     }
   }
 }

@@ -147,7 +147,8 @@ TEST_F(Robustness, survivesRandomPeopleWhileTheMapIsResized) {
     layers_.setParams(params);
     sarn::PeoplePrediction people = prediction({}, 10.0 + 0.01 * static_cast<double>(random() % 300));
     people.time_step = random() % 8 == 0 ? 1e-6 : 0.4;
-    for (unsigned i = 0; i < random() % 9; ++i) people.people.push_back(randomPerson(random));
+    const auto count = random() % 9;
+    for (std::size_t i = 0; i < count; ++i) people.people.push_back(randomPerson(random));
     layers_.update(people, 11.0);
     SocialLayers fresh(params);
     fresh.resize(layers_.geometry());
@@ -183,7 +184,8 @@ TEST_F(Robustness, survivesRandomScansAndPeopleInTheWholeCostmap) {
     EXPECT_FALSE(costmap.addScan(scan));
     sarn::PeoplePrediction people = prediction({}, 0.1 * round);
     std::vector<sarn::Person> seen;
-    for (unsigned i = 0; i < random() % 6; ++i) {
+    const auto count = random() % 6;
+    for (std::size_t i = 0; i < count; ++i) {
       people.people.push_back(randomPerson(random));
       const auto& states = people.people.back().states;
       if (!states.empty()) seen.push_back({"p", "", states.front().position, states.front().velocity, 1.0});
