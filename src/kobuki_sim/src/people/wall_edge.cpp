@@ -12,6 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kStraight = 1e-4;  // [rad] a corner that recedes less counts as straight
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -24,7 +25,8 @@ WallVertex vertexAt(const std::vector<Vector2d>& outline, std::size_t i) {
   if (!(in.squaredNorm() > 0.0 && out.squaredNorm() > 0.0)) {
     throw std::invalid_argument("wall outline: points " + std::to_string(i) + " and its neighbour are equal");
   }
-  return {outline[i], in.normalized(), out.normalized(), n == 2 || cross(in, out) >= 0.0};
+  return {outline[i], in.normalized(), out.normalized(),
+          cross(in.normalized(), out.normalized()) >= -kStraight};
 }
 
 /// The velocity obstacle of an edge: the shadow of its two end discs, cut off at the time horizon. Seen from
