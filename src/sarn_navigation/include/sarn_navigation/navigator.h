@@ -74,6 +74,7 @@ class Navigator {
   /// Grows with each plan that is taken over.
   [[nodiscard]] unsigned planCount() const { return plan_count_; }
   [[nodiscard]] bool hasGoal() const { return goal_.has_value(); }
+  [[nodiscard]] bool yielding() const { return yield_.has_value(); }
   /// True once when obstacles seen so far are to be forgotten.
   [[nodiscard]] bool takeClearRequest() { return recovery_.takeClearRequest(); }
   /// In a simulation faster than real time: blocks while a search runs whose plan is due at `now` [s].

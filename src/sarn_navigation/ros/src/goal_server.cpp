@@ -10,7 +10,8 @@
 
 namespace sarn_navigation {
 
-GoalServer::GoalServer(ros::NodeHandle nh, tf2_ros::Buffer& buffer, std::string global_frame, Handlers handlers)
+GoalServer::GoalServer(ros::NodeHandle nh, tf2_ros::Buffer& buffer, std::string global_frame,
+                       Handlers handlers)
     : nh_(std::move(nh)),
       buffer_(buffer),
       global_frame_(std::move(global_frame)),
@@ -31,7 +32,8 @@ void GoalServer::onSimpleGoal(const geometry_msgs::PoseStamped& goal) {
   action_goal_.publish(action_goal);
 }
 
-std::string GoalServer::toGlobalFrame(const geometry_msgs::PoseStamped& goal, sarn::Pose2D& goal_in_map) const {
+std::string GoalServer::toGlobalFrame(const geometry_msgs::PoseStamped& goal,
+                                      sarn::Pose2D& goal_in_map) const {
   const auto pose = sarn::fromMessage(goal.pose);
   if (!pose) return "goal is not a finite pose with a rotation about z";
   if (goal.header.frame_id.empty()) return "goal has no frame_id";

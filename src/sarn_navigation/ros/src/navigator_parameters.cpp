@@ -2,21 +2,20 @@
 #include "sarn_navigation_ros/navigator_parameters.h"
 
 #include "sarn_common_ros/parameter_reader.h"
+#include "social_costmap_ros/parameters.h"
 
 namespace sarn_navigation {
 
 NavigatorConfig readNavigatorConfig(const ros::NodeHandle& private_nh) {
   NavigatorConfig config;
-  config.node = sarn::readParameters<NavigatorNodeParams>(private_nh, {"navigator", "planner", "follower", "costmap"});
+  config.node =
+      sarn::readParameters<NavigatorNodeParams>(private_nh, {"navigator", "planner", "follower", "costmap"});
   config.navigator = sarn::readParameters<NavigatorParams>(ros::NodeHandle(private_nh, "navigator"));
-  config.planner = sarn::readParameters<lattice_planner::PlannerParams>(ros::NodeHandle(private_nh, "planner"));
-  config.follower = sarn::readParameters<timed_path_follower::FollowerParams>(ros::NodeHandle(private_nh, "follower"));
-  const ros::NodeHandle costmap(private_nh, "costmap");
-  using namespace social_costmap;
-  config.costmap.static_layer = sarn::readParameters<StaticLayerParams>(ros::NodeHandle(costmap, "static"));
-  config.costmap.obstacle_layer = sarn::readParameters<ObstacleLayerParams>(ros::NodeHandle(costmap, "obstacle"));
-  config.costmap.inflation_layer = sarn::readParameters<InflationLayerParams>(ros::NodeHandle(costmap, "inflation"));
-  config.costmap.social_layers = sarn::readParameters<SocialParams>(ros::NodeHandle(costmap, "social"));
+  config.planner =
+      sarn::readParameters<lattice_planner::PlannerParams>(ros::NodeHandle(private_nh, "planner"));
+  config.follower =
+      sarn::readParameters<timed_path_follower::FollowerParams>(ros::NodeHandle(private_nh, "follower"));
+  config.costmap = social_costmap_ros::readCostmapParams(ros::NodeHandle(private_nh, "costmap"));
   return config;
 }
 

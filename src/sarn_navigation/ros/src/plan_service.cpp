@@ -37,7 +37,8 @@ bool PlanService::onMakePlan(nav_msgs::GetPlan::Request& request, nav_msgs::GetP
     problem = "there is no map yet";
   } else if (!start || !goal) {
     problem = "start and goal must be finite poses with a rotation about z";
-  } else if (request.start.header.frame_id != global_frame_ || request.goal.header.frame_id != global_frame_) {
+  } else if (request.start.header.frame_id != global_frame_ ||
+             request.goal.header.frame_id != global_frame_) {
     problem = "start and goal must be in frame " + global_frame_;
   }
   if (!problem.empty()) {

@@ -19,7 +19,8 @@ namespace sarn_navigation {
 class GoalServer {
  public:
   struct Handlers {
-    std::function<std::string(const sarn::Pose2D&)> accept;  // why a goal in the planning frame is refused, or empty
+    std::function<std::string(const sarn::Pose2D&)>
+        accept;  // why a goal in the planning frame is refused, or empty
     std::function<void()> cancel;
   };
 
@@ -34,7 +35,8 @@ class GoalServer {
   void onGoal();
   void onPreempt();
   void onSimpleGoal(const geometry_msgs::PoseStamped& goal);
-  [[nodiscard]] std::string toGlobalFrame(const geometry_msgs::PoseStamped& goal, sarn::Pose2D& goal_in_map) const;
+  [[nodiscard]] std::string toGlobalFrame(const geometry_msgs::PoseStamped& goal,
+                                          sarn::Pose2D& goal_in_map) const;
 
   ros::NodeHandle nh_;
   tf2_ros::Buffer& buffer_;

@@ -26,8 +26,8 @@
 
 namespace sarn_navigation {
 
-/// Wires the costmap, the planner and the follower into what move_base offers. All callbacks but make_plan's run in
-/// one thread; searches run in the navigator's worker.
+/// Wires the costmap, the planner and the follower into what move_base offers. All callbacks but make_plan's
+/// run in one thread; searches run in the navigator's worker.
 class NavigatorNode {
  public:
   NavigatorNode(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
@@ -63,14 +63,15 @@ class NavigatorNode {
 
   mutable std::mutex scene_mutex_;
   std::shared_ptr<const sarn::TimedCostmapView> scene_;
-  sarn::Twist2D measured_;                              // of the last odometry
-  std::deque<sensor_msgs::LaserScanConstPtr> scans_;    // waiting for their transform
+  std::shared_ptr<const social_costmap::Snapshot> snapshot_;  // what scene_ shows
+  sarn::Twist2D measured_;                                    // of the last odometry
+  std::deque<sensor_msgs::LaserScanConstPtr> scans_;          // waiting for their transform
   bool map_received_ = false;
   bool was_active_ = false;
-  int zeros_to_send_ = 0;        // after the goal: a few zero commands
-  double last_now_ = 0.0;        // [s]
-  double next_costmap_ = 0.0;    // [s]
-  double next_status_ = 0.0;     // [s]
+  int zeros_to_send_ = 0;      // after the goal: a few zero commands
+  double last_now_ = 0.0;      // [s]
+  double next_costmap_ = 0.0;  // [s]
+  double next_status_ = 0.0;   // [s]
   unsigned displayed_plan_ = 0;
   LineThrottle pose_line_;
   LineThrottle scan_line_;

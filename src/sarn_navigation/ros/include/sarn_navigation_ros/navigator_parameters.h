@@ -15,10 +15,10 @@ namespace sarn_navigation {
 struct NavigatorNodeParams {
   std::string global_frame = "map";
   std::string robot_base_frame = "base_footprint";
-  std::string social = "timed";           // timed: people move; frozen: people stand where they are now; off: none
-  double costmap_frequency = 10.0;        // [Hz]
-  double visualization_frequency = 2.0;   // [Hz] simulated time; only while somebody listens
-  bool lockstep = false;                  // the simulation waits for plans that are due
+  std::string social = "timed";     // timed: people move; frozen: people stand where they are now; off: none
+  double costmap_frequency = 10.0;  // [Hz]
+  double visualization_frequency = 2.0;  // [Hz] simulated time; only while somebody listens
+  bool lockstep = false;                 // the simulation waits for plans that are due
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {

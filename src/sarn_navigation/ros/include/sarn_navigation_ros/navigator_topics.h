@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Every topic, service and frame name of the navigator. Relative names resolve in the node's namespace, ~names in its
-// own: the launch files name the node move_base, so that clients of move_base find what they know.
+// Every topic, service and frame name of the navigator. Relative names resolve in the node's namespace,
+// ~names in its own: the launch files name the node move_base, so that clients of move_base find what they
+// know.
 namespace sarn_navigation::topics {
 
 // Inputs.
@@ -18,15 +19,12 @@ inline constexpr char kAction[] = "move_base";
 inline constexpr char kCommand[] = "cmd_vel";
 inline constexpr char kStatus[] = "navigation_status";
 inline constexpr char kLockstep[] = "lockstep/navigator";
-inline constexpr char kPath[] = "plan";                  // ~
-inline constexpr char kTrajectory[] = "trajectory";      // ~
-inline constexpr char kCurrentGoal[] = "current_goal";   // ~
-inline constexpr char kCostmap[] = "costmap";            // ~
-inline constexpr char kSocialCostmap[] = "social_costmap";  // ~ people layer of the present
-inline constexpr char kPeopleMarkers[] = "people_markers";  // ~
+inline constexpr char kPath[] = "plan";                 // ~
+inline constexpr char kTrajectory[] = "trajectory";     // ~
+inline constexpr char kCurrentGoal[] = "current_goal";  // ~
 
 // Services.
-inline constexpr char kMakePlan[] = "make_plan";           // ~
-inline constexpr char kClearCostmaps[] = "clear_costmaps"; // ~
+inline constexpr char kMakePlan[] = "make_plan";            // ~
+inline constexpr char kClearCostmaps[] = "clear_costmaps";  // ~
 
 }  // namespace sarn_navigation::topics

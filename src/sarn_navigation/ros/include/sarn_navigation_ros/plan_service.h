@@ -16,10 +16,11 @@ namespace sarn_navigation {
 /// The service make_plan, answered in a thread of its own with a planner of its own, so that driving goes on.
 class PlanService {
  public:
-  using SceneSource = std::function<std::shared_ptr<const sarn::TimedCostmapView>()>;  // any thread; null: no costs yet
+  using SceneSource =
+      std::function<std::shared_ptr<const sarn::TimedCostmapView>()>;  // any thread; null: no costs yet
 
-  PlanService(const ros::NodeHandle& private_nh, const lattice_planner::PlannerParams& params, std::string global_frame,
-              SceneSource scene);
+  PlanService(const ros::NodeHandle& private_nh, const lattice_planner::PlannerParams& params,
+              std::string global_frame, SceneSource scene);
 
  private:
   bool onMakePlan(nav_msgs::GetPlan::Request& request, nav_msgs::GetPlan::Response& response);

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sarn_navigation_ros/navigator_node.h"
+
+#include <geometry_msgs/Twist.h>
+#include <std_msgs/Time.h>
+#include <tf2/exceptions.h>
+
+#include <cmath>
+#include <utility>
+
+#include "sarn_common_ros/conversions.h"
+#include "sarn_navigation_ros/navigator_topics.h"
+#include "sarn_navigation_ros/path_conversions.h"
+#include "social_costmap_ros/conversions.h"
+
+namespace sarn_navigation {
+namespace {
+
+constexpr std::size_t kMaxPendingScans = 10;
+constexpr double kClockJump = 0.5;     // [s] back
+constexpr double kStatusPeriod = 0.1;  // [s]
+constexpr int kFinalZeros = 10;        // commands
+
+/// A snapshot with the view the planner reads.
+struct Scene {
+  std::shared_ptr<const social_costmap::Snapshot> snapshot;
+  sarn::TimedCostmapView view;
+};
+
+std::shared_ptr<const sarn::TimedCostmapView> makeScene(
+    std::shared_ptr<const social_costmap::Snapshot> snapshot, const std::string& social) {
+  auto scene = std::make_shared<Scene>();
+  scene->view = snapshot->view();
+  scene->snapshot = std::move(snapshot);
+  if (social == "off") scene->view.layers.clear();
+  if (social == "frozen" && scene->view.layers.size() > 1) scene->view.layers.resize(1);
+  return {scene, &scene->view};
+}
+
+PlanFunction makePlanFunction(const lattice_planner::PlannerParams& params) {
+  auto planner = std::make_shared<lattice_planner::LatticePlanner>(params);
+  return [planner](const lattice_planner::PlanRequest& request, const sarn::TimedCostmapView& view) {
+    return planner->plan(request, view);
+  };
+}
+
+}  // namespace
+
+NavigatorNode::NavigatorNode(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
+    : nh_(nh),
+      private_nh_(private_nh),
+      config_(readNavigatorConfig(private_nh_)),
+      tf_listener_(tf_buffer_),
+      costmap_(config_.costmap),
+      navigator_(config_.navigator, config_.follower, makePlanFunction(config_.planner)),
+      display_(private_nh_, config_.node.global_frame, config_.node.visualization_frequency) {
+  command_ = nh_.advertise<geometry_msgs::Twist>(topics::kCommand, 10);
+  status_ = nh_.advertise<sarn_msgs::NavigationStatus>(topics::kStatus, 10);
+  lockstep_ = nh_.advertise<std_msgs::Time>(topics::kLockstep, 10);
+  const auto no_delay = ros::TransportHints().tcpNoDelay();
+  map_subscriber_ = nh_.subscribe(topics::kMap, 1, &NavigatorNode::onMap, this);
+  odometry_subscriber_ = nh_.subscribe(topics::kOdometry, 10, &NavigatorNode::onOdometry, this, no_delay);
+  scan_subscriber_ = nh_.subscribe<sensor_msgs::LaserScan>(
+      topics::kScan, 10, [this](const sensor_msgs::LaserScanConstPtr& scan) {
+        scans_.push_back(scan);
+        if (scans_.size() > kMaxPendingScans) scans_.pop_front();
+      });
+  people_subscriber_ = nh_.subscribe(topics::kPeople, 10, &NavigatorNode::onPeople, this, no_delay);
+  prediction_subscriber_ =
+      nh_.subscribe(topics::kPeoplePrediction, 10, &NavigatorNode::onPrediction, this, no_delay);
+  clear_service_ =
+      private_nh_.advertiseService(topics::kClearCostmaps, &NavigatorNode::onClearCostmaps, this);
+  goals_ = std::make_unique<GoalServer>(
+      nh_, tf_buffer_, config_.node.global_frame,
+      GoalServer::Handlers{[this](const sarn::Pose2D& goal) { return acceptGoal(goal); },
+                           [this] { navigator_.cancel(); }});
+  plan_service_ = std::make_unique<PlanService>(private_nh_, config_.planner, config_.node.global_frame,
+                                                [this] { return scene(); });
+  control_timer_ = nh_.createTimer(ros::Duration(1.0 / config_.navigator.controller_frequency),
+                                   [this](const ros::TimerEvent&) { onControl(); });
+}
+
+void NavigatorNode::say(LineThrottle& line, const std::string& text) {
+  if (line.ready()) ROS_WARN("%s", text.c_str());
+}
+
+// --- inputs
+// ------------------------------------------------------------------------------------------------------
+
+void NavigatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
+  const auto map = sarn::fromMessage(message);
+  if (!map) {
+    ROS_ERROR("%s: the map has no cells, the wrong number of cells or a turned origin; it is ignored",
+              map_subscriber_.getTopic().c_str());
+    return;
+  }
+  costmap_.setMap(*map);
+  map_received_ = true;
+  next_costmap_ = 0.0;
+}
+
+void NavigatorNode::onOdometry(const nav_msgs::Odometry& message) {
+  if (const auto twist = sarn::fromMessage(message.twist.twist)) measured_ = *twist;
+}
+
+void NavigatorNode::onPeople(const people_msgs::People& message) {
+  if (message.header.frame_id != config_.node.global_frame) {
+    say(people_line_, people_subscriber_.getTopic() + ": frame is '" + message.header.frame_id +
+                          "', expected '" + config_.node.global_frame + "'; these people are ignored");
+    return;
+  }
+  costmap_.setPeople(sarn::fromMessage(message), message.header.stamp.toSec());
+}
+
+void NavigatorNode::onPrediction(const sarn_msgs::PeoplePrediction& message) {
+  if (message.header.frame_id != config_.node.global_frame) {
+    say(people_line_, prediction_subscriber_.getTopic() + ": frame is '" + message.header.frame_id +
+                          "', expected '" + config_.node.global_frame + "'; these people are ignored");
+    return;
+  }
+  sarn::PeoplePrediction prediction = sarn::fromMessage(message);
+  navigator_.observe(prediction);
+  display_.remember(prediction);
+  costmap_.setPrediction(std::move(prediction));
+}
+
+bool NavigatorNode::onClearCostmaps(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  costmap_.clearObstacles();
+  next_costmap_ = 0.0;
+  return true;
+}
+
+std::string NavigatorNode::acceptGoal(const sarn::Pose2D& goal) {
+  const double now = ros::Time::now().toSec();
+  const auto pose = robotPose(now);
+  if (!pose) return "the robot's pose is not known (see the log)";
+  updateScene(*pose, now);
+  if (!scene_) return "there is no map yet on " + map_subscriber_.getTopic();
+  return navigator_.setGoal(goal, {now, *pose, measured_, scene_});
+}
+
+std::optional<sarn::Pose2D> NavigatorNode::robotPose(double now) {
+  const std::string& map = config_.node.global_frame;
+  const std::string& base = config_.node.robot_base_frame;
+  try {
+    const auto transform = tf_buffer_.lookupTransform(map, base, ros::Time(0));
+    const double age = now - transform.header.stamp.toSec();
+    if (std::abs(age) > config_.navigator.transform_tolerance) {
+      say(pose_line_, "transform " + map + " -> " + base + " is " + std::to_string(age) +
+                          " s old: the robot stands still");
+      return std::nullopt;
+    }
+    const auto pose = sarn::fromMessage(transform.transform);
+    if (!pose) say(pose_line_, "transform " + map + " -> " + base + " is not planar: the robot stands still");
+    return pose;
+  } catch (const tf2::TransformException& error) {
+    say(pose_line_, "transform " + map + " -> " + base + ": " + error.what() + ": the robot stands still");
+    return std::nullopt;
+  }
+}
+
+void NavigatorNode::digestScans() {
+  while (!scans_.empty()) {
+    const auto& scan = *scans_.front();
+    const std::string& map = config_.node.global_frame;
+    std::string problem;
+    try {
+      const auto transform = tf_buffer_.lookupTransform(map, scan.header.frame_id, scan.header.stamp);
+      if (const auto sensor = sarn::fromMessage(transform.transform)) {
+        if (const auto unusable = costmap_.addScan(social_costmap_ros::fromMessage(scan, *sensor)))
+          problem = *unusable;
+      } else {
+        problem = "frame " + scan.header.frame_id + " is tilted";
+      }
+    } catch (const tf2::ExtrapolationException& error) {
+      const bool may_come = scans_.size() < kMaxPendingScans && scan.header.stamp.toSec() > last_now_ - 0.5;
+      if (may_come) return;  // its transform is on the way
+      problem = error.what();
+    } catch (const tf2::TransformException& error) {
+      problem = error.what();
+    }
+    if (!problem.empty()) say(scan_line_, scan_subscriber_.getTopic() + ": " + problem);
+    scans_.pop_front();
+  }
+}
+
+// --- control
+// -----------------------------------------------------------------------------------------------------
+
+void NavigatorNode::guardClock(double now) {
+  if (now < last_now_ - kClockJump) {
+    ROS_WARN("the clock jumped back from %.2f to %.2f s: plans, people and the goal are forgotten", last_now_,
+             now);
+    navigator_.reset();
+    goals_->abort("the clock jumped back");
+    scans_.clear();
+    tf_buffer_.clear();
+    next_costmap_ = next_status_ = 0.0;
+  }
+  last_now_ = now;
+}
+
+std::shared_ptr<const sarn::TimedCostmapView> NavigatorNode::scene() const {
+  const std::lock_guard<std::mutex> lock(scene_mutex_);
+  return scene_;
+}
+
+void NavigatorNode::updateScene(const sarn::Pose2D& robot, double now) {
+  if (!map_received_) return;
+  digestScans();
+  if (navigator_.takeClearRequest()) costmap_.clearObstacles();
+  auto snapshot = costmap_.update(robot, now);
+  if (!snapshot) return;
+  snapshot_ = snapshot;
+  auto scene = makeScene(std::move(snapshot), config_.node.social);
+  const std::lock_guard<std::mutex> lock(scene_mutex_);
+  scene_ = std::move(scene);
+}
+
+std::optional<NavigatorInput> NavigatorNode::makeInput(double now) {
+  const auto pose = robotPose(now);
+  if (!pose) return std::nullopt;
+  if (now >= next_costmap_) {
+    next_costmap_ = now + 1.0 / config_.node.costmap_frequency;
+    updateScene(*pose, now);
+  }
+  if (!scene_) return std::nullopt;
+  return NavigatorInput{now, *pose, measured_, scene_};
+}
+
+void NavigatorNode::onControl() {
+  const ros::Time stamp = ros::Time::now();
+  const double now = stamp.toSec();
+  guardClock(now);
+  if (const auto input = makeInput(now)) {
+    send(navigator_.step(*input));
+    report(*input);
+  } else if (goals_->active()) {
+    command_.publish(geometry_msgs::Twist());  // a robot in doubt stands still
+  }
+  if (config_.node.lockstep) navigator_.waitForPlanDue(now);
+  acknowledge(now);
+}
+
+void NavigatorNode::send(const sarn::Twist2D& command) {
+  const bool active =
+      navigator_.hasGoal() || navigator_.yielding() || command.v != 0.0 || command.omega != 0.0;
+  if (active) zeros_to_send_ = kFinalZeros;
+  if (!active && zeros_to_send_-- <= 0) {
+    zeros_to_send_ = 0;
+    return;
+  }
+  command_.publish(sarn::toMessage(command));
+}
+
+void NavigatorNode::report(const NavigatorInput& input) {
+  const NavigatorStatus& status = navigator_.status();
+  if (was_active_ && !navigator_.hasGoal()) {
+    if (status.state == NavigatorState::kSucceeded) goals_->succeed();
+    if (status.state == NavigatorState::kAborted) goals_->abort(status.reason);
+  }
+  was_active_ = navigator_.hasGoal();
+  const ros::Time stamp(input.now);
+  if (navigator_.planCount() != displayed_plan_) {
+    displayed_plan_ = navigator_.planCount();
+    display_.showPlan(navigator_.trajectory(), status);
+  }
+  if (input.now < next_status_) return;
+  next_status_ = input.now + kStatusPeriod - 1e-6;
+  status_.publish(toMessage(status, config_.node.global_frame, stamp));
+  goals_->publishFeedback(input.pose, stamp);
+  display_.showCosts(*snapshot_, config_.costmap.social_layers);
+}
+
+void NavigatorNode::acknowledge(double now) {
+  std_msgs::Time message;
+  message.data = ros::Time(now);
+  lockstep_.publish(message);
+}
+
+}  // namespace sarn_navigation

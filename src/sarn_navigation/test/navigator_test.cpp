@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sarn_navigation/navigator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "drawn_scene.h"
+
+namespace sarn_navigation {
+namespace {
+
+constexpr double kPeriod = 0.05;  // [s]
+
+lattice_planner::PlannerParams plannerParams() {
+  lattice_planner::PlannerParams params;
+  params.max_expansions = 20000;  // the same answer on any machine
+  return params;
+}
+
+/// A perfect robot in a drawn world, driven by the navigator; plans are waited for, so that tests repeat.
+class Drive {
+ public:
+  Drive(DrawnScene& scene, const sarn::Pose2D& start, const NavigatorParams& params = {})
+      : scene_(scene),
+        pose_(start),
+        planner_(std::make_shared<lattice_planner::LatticePlanner>(plannerParams())),
+        navigator_(params, {},
+                   [this](const auto& request, const auto& view) { return planner_->plan(request, view); }) {}
+
+  NavigatorInput input() { return {now_, pose_, twist_, scene_.shared()}; }
+  std::string setGoal(const sarn::Pose2D& goal) { return navigator_.setGoal(goal, input()); }
+  void step() {
+    twist_ = navigator_.step(input());
+    pose_ = sarn::advance(pose_, twist_, kPeriod);
+    now_ += kPeriod;
+    navigator_.waitForPlanDue(now_ + 1.0);
+  }
+  /// Steps until the state is reached; false after the time limit [s].
+  bool runUntil(NavigatorState state, double limit) {
+    for (const double end = now_ + limit; now_ < end;) {
+      step();
+      if (navigator_.status().state == state) return true;
+    }
+    return false;
+  }
+  Navigator& navigator() { return navigator_; }
+  [[nodiscard]] const sarn::Pose2D& pose() const { return pose_; }
+  [[nodiscard]] const sarn::Twist2D& twist() const { return twist_; }
+  [[nodiscard]] double now() const { return now_; }
+
+ private:
+  DrawnScene& scene_;
+  sarn::Pose2D pose_;
+  sarn::Twist2D twist_;
+  double now_ = 100.0;
+  std::shared_ptr<lattice_planner::LatticePlanner> planner_;
+  Navigator navigator_;
+};
+
+std::vector<std::string> room(int width, int height) {
+  return std::vector<std::string>(static_cast<std::size_t>(height),
+                                  std::string(static_cast<std::size_t>(width), '.'));
+}
+
+TEST(Navigator, drivesToItsGoalAndStops) {
+  DrawnScene scene(room(24, 12));
+  Drive drive(scene, {0.6, 0.6, 0.0});
+  ASSERT_EQ(drive.setGoal({4.5, 2.0, 1.57}), "");
+  EXPECT_TRUE(drive.runUntil(NavigatorState::kSucceeded, 40.0));
+  EXPECT_NEAR(drive.pose().x, 4.5, 0.2);
+  EXPECT_NEAR(drive.pose().y, 2.0, 0.2);
+  EXPECT_NEAR(drive.pose().theta, 1.57, 0.25);
+  EXPECT_FALSE(drive.navigator().hasGoal());
+}
+
+TEST(Navigator, refusesGoalsThatCannotBeReachedAndSaysWhy) {
+  DrawnScene scene({".....", "..#?.", "....."});
+  Drive drive(scene, {0.1, 0.1, 0.0});
+  EXPECT_NE(drive.setGoal({9.0, 0.0, 0.0}).find("outside the map"), std::string::npos);
+  EXPECT_NE(drive.setGoal({0.6, 0.4, 0.0}).find("in an obstacle"), std::string::npos);
+  EXPECT_NE(drive.setGoal({0.9, 0.4, 0.0}).find("unknown space"), std::string::npos);
+  EXPECT_NE(drive.setGoal({std::nan(""), 0.4, 0.0}).find("not finite"), std::string::npos);
+  EXPECT_FALSE(drive.navigator().hasGoal());
+}
+
+TEST(Navigator, brakesBeforeAnObstacleThatAppearsOnThePlan) {
+  DrawnScene scene(room(32, 3));
+  Drive drive(scene, {0.6, 0.37, 0.0});
+  ASSERT_EQ(drive.setGoal({7.0, 0.37, 0.0}), "");
+  while (drive.pose().x < 2.0) drive.step();
+  ASSERT_GT(drive.twist().v, 0.3);
+  std::vector<std::string> walled = room(32, 3);
+  for (auto& row : walled) row[13] = '#';  // x in [3.25, 3.5]
+  DrawnScene blocked(walled);
+  scene.view() = blocked.view();
+  for (int i = 0; i < 100; ++i) drive.step();
+  EXPECT_LT(drive.pose().x, 3.25);
+}
+
+TEST(Navigator, givesUpAfterItsRecoveriesWithAReason) {
+  DrawnScene scene({"....#.........", "....#.........", "....#.........", "....#........."});
+  NavigatorParams params;
+  params.progress_timeout = 1.0;
+  params.recovery_wait = 0.1;
+  params.recovery_turn_speed = 3.0;
+  params.max_recoveries = 2;
+  Drive drive(scene, {0.5, 0.5, 0.0}, params);
+  ASSERT_EQ(drive.setGoal({3.0, 0.5, 0.0}), "");
+  EXPECT_TRUE(drive.runUntil(NavigatorState::kAborted, 60.0));
+  EXPECT_NE(drive.navigator().status().reason.find("after 2 recoveries"), std::string::npos);
+  EXPECT_EQ(drive.twist().v, 0.0);
+}
+
+TEST(Navigator, movesAsideForSomebodyWhoseWayItBlocksAndStaysCalmOtherwise) {
+  DrawnScene scene(room(24, 16));
+  Drive drive(scene, {3.0, 2.0, 0.0});
+  for (int i = 0; i < 20; ++i) drive.step();
+  EXPECT_EQ(drive.navigator().status().state, NavigatorState::kIdle);
+  drive.navigator().observe({drive.now(), 0.5, {{"anna", "", {{{5.5, 2.0}, {-1.0, 0.0}, 0.1}}}}});
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kYielding, 2.0));
+  EXPECT_NE(drive.navigator().status().reason.find("anna"), std::string::npos);
+  for (int i = 0; i < 120; ++i) drive.step();
+  EXPECT_GT(std::abs(drive.pose().y - 2.0), NavigatorParams().yield_distance) << "out of the person's line";
+}
+
+TEST(Navigator, cancelStopsWithinTheAccelerationLimit) {
+  DrawnScene scene(room(32, 4));
+  Drive drive(scene, {0.6, 0.5, 0.0});
+  ASSERT_EQ(drive.setGoal({7.0, 0.5, 0.0}), "");
+  while (drive.twist().v < 0.45) drive.step();
+  drive.navigator().cancel();
+  double last = drive.twist().v;
+  while (last > 0.0) {
+    drive.step();
+    EXPECT_GE(drive.twist().v, last - NavigatorParams().acc_lim_x * kPeriod - 1e-9);
+    ASSERT_LT(drive.twist().v, last);
+    last = drive.twist().v;
+  }
+}
+
+}  // namespace
+}  // namespace sarn_navigation
