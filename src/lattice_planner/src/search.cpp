@@ -106,11 +106,26 @@ void Search::prepare(const PlanRequest& request, const sarn::TimedCostmapView& c
   best_cost_ = std::numeric_limits<double>::infinity();
   closest_ = kInfinity;
   expansions_ = generated_ = enough_expansions_ = 0;
+  appendLayerAfterHorizon();
   prepareTimeAxis();
   const sarn::CellIndex start = costmap_.geometry.cellAtUnbounded(request.start.x, request.start.y);
   escape_.reset(costmap_, forbidden_static_, forbidden_social_, start, request.start.t,
                 params_.escape_radius);
   prepareDistanceField();
+}
+
+/// One more layer that holds after the prediction's end: what the first, the middle and the last layer agree
+/// on.
+void Search::appendLayerAfterHorizon() {
+  const std::size_t count = costmap_.layers.size();
+  if (!params_.forget_moving_people || count < 2) return;
+  const std::size_t size = costmap_.geometry.size();
+  const std::uint8_t* const first = costmap_.layers.front();
+  const std::uint8_t* const middle = costmap_.layers[count / 2];
+  const std::uint8_t* const last = costmap_.layers.back();
+  after_horizon_.resize(size);
+  for (std::size_t i = 0; i < size; ++i) after_horizon_[i] = std::min(std::min(first[i], middle[i]), last[i]);
+  costmap_.layers.push_back(after_horizon_.data());
 }
 
 /// Layers of the samples of each time step, up to the step from which on the last layer holds. Equal layers

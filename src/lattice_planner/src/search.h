@@ -37,6 +37,7 @@ class Search {
   [[nodiscard]] std::optional<PlanStatus> refuse(const PlanRequest& request,
                                                  const sarn::TimedCostmapView& costmap) const;
   void prepare(const PlanRequest& request, const sarn::TimedCostmapView& costmap);
+  void appendLayerAfterHorizon();
   void prepareTimeAxis();
   void prepareDistanceField();
   void preparePeopleField();
@@ -91,9 +92,10 @@ class Search {
   PlanRequest request_;
   sarn::Pose2D goal_from_map_;
   std::vector<MotionPrimitive> start_actions_;
-  std::vector<int> layer_of_sample_;  // [step * samples + sample], up to merge_step_
-  double merge_size_ = 0.05;          // [m] edge of a merge cell
-  std::uint32_t merge_step_ = 0;      // from here on nothing changes with time
+  std::vector<std::uint8_t> after_horizon_;  // costs of the people who stand
+  std::vector<int> layer_of_sample_;         // [step * samples + sample], up to merge_step_
+  double merge_size_ = 0.05;                 // [m] edge of a merge cell
+  std::uint32_t merge_step_ = 0;             // from here on nothing changes with time
   int last_layer_ = -1;
   double weight_ = 1.0;
   StateId best_goal_ = kNoState;

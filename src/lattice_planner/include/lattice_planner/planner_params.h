@@ -31,6 +31,10 @@ struct PlannerParams {
   double social_weight = 8.0;     // [1/s] for staying in social cost 252; smaller costs in proportion
   bool combine_with_max = false;  // charge only the dearer of static and social cost, as the ancestor does
 
+  // Where the prediction ends: true: only people who stood still remain; false: all stay as the last layer
+  // shows them.
+  bool forget_moving_people = true;
+
   // What is forbidden.
   int forbidden_cost = 253;                // cells of this cost or more, static or social, are forbidden
   bool allow_unknown = false;              // cells without information may be entered, at cost 126
@@ -71,6 +75,7 @@ struct PlannerParams {
     v("static_weight", p.static_weight, {0.0, 1e6});
     v("social_weight", p.social_weight, {0.0, 1e6});
     v("combine_with_max", p.combine_with_max);
+    v("forget_moving_people", p.forget_moving_people);
     v("forbidden_cost", p.forbidden_cost, {1.0, 254.0});
     v("allow_unknown", p.allow_unknown);
     v("collision_check_distance", p.collision_check_distance, {0.005, 0.5});
