@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   }
   std::nth_element(times.begin(), times.begin() + frames / 2, times.end());
   const double pixels = 640.0 * 480.0 * frames;
-  std::printf("{\"depth.frame_ms\": %.4f, \"depth.return_share\": %.4f}\n",
-              times[static_cast<std::size_t>(frames) / 2], static_cast<double>(returns) / pixels);
+  std::printf("{\"depth.frame_ms\": %.4f}\n", times[static_cast<std::size_t>(frames) / 2]);
+  std::fprintf(stderr, "%.1f %% of the pixels have a depth\n", 100.0 * static_cast<double>(returns) / pixels);
   return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "sarn_common/parameters.h"
@@ -17,6 +18,31 @@ const DepthCameraParams& checked(const DepthCameraParams& params) {
   for (const std::string& problem : sarn::problems(params)) text += (text.empty() ? "" : "; ") + problem;
   if (!text.empty()) throw std::invalid_argument("depth camera: " + text);
   return params;
+}
+
+/// First wall on a ray, as StaticMap::rayCast, but with long steps through open space.
+std::optional<RayHit> castFar(const StaticMap& map, const Eigen::Vector2d& origin,
+                              const Eigen::Vector2d& direction, double max_range) {
+  constexpr double kWorthwhile = 4.0;   // [cells] a long step is taken from
+  constexpr double kExactCells = 16.0;  // [cells] walked one by one otherwise
+  constexpr double kOverlap = 1e-6;     // [m] so that no walk begins inside a wall that the last one ended at
+  if (map.empty()) return std::nullopt;
+  const double cell = map.geometry().resolution;
+  for (double t = 0.0; t < max_range;) {
+    const Eigen::Vector2d from = origin + t * direction;
+    const double clearance = map.clearanceLowerBound(from);
+    if (clearance > kWorthwhile * cell) {
+      t += clearance;
+      continue;
+    }
+    auto hit = map.rayCast(from, direction, kExactCells * cell);
+    if (hit) {
+      hit->distance += t;
+      return hit;
+    }
+    t += kExactCells * cell - kOverlap;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -55,7 +81,7 @@ void DepthCamera::castWalls(const StaticMap& map, const sarn::Pose2D& map_from_c
     const double length = std::sqrt(1.0 + slope * slope);  // [m] of the ray a metre of depth
     const Eigen::Vector2d direction = (ahead + slope * left) / length;
     // Noise may bring a wall just out of range into it.
-    const auto hit = map.rayCast(map_from_camera.position(), direction, 1.1 * params_.range_max * length);
+    const auto hit = castFar(map, map_from_camera.position(), direction, 1.1 * params_.range_max * length);
     wall_[u] = hit ? std::min(kLargestInverseDepth, static_cast<float>(length / hit->distance)) : 0.0F;
     const double cos_incidence = hit ? std::abs(direction.dot(hit->normal)) : 1.0;
     wall_loss_[u] = static_cast<float>(lossProbability(params_, cos_incidence));
