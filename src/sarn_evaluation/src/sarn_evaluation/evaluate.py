@@ -55,6 +55,11 @@ class _Around:
     nearest: np.ndarray  # (N,) hull distance to the nearest person, inf when nobody is there [m]
 
 
+def _absent_is_far(distance: np.ndarray) -> np.ndarray:
+    """NaN (nobody there) as inf."""
+    return np.where(np.isnan(distance), np.inf, distance)
+
+
 def _around(track: RobotTrack, people: List[PersonTrack], robot_radius: float) -> Optional[_Around]:
     if not people or len(track.time) < 2:
         return None
@@ -64,7 +69,7 @@ def _around(track: RobotTrack, people: List[PersonTrack], robot_radius: float) -
     radii = np.array([[person.radius + robot_radius] for person in people])
     offset = position - track.position
     hull = np.maximum(np.hypot(offset[..., 0], offset[..., 1]) - radii, 0.0)
-    nearest = np.nan_to_num(hull, nan=np.inf).min(axis=0)
+    nearest = _absent_is_far(hull).min(axis=0)
     if not np.isfinite(nearest).any():
         return None
     return _Around(offset, velocity - track.velocity, velocity, radii, hull, nearest)
@@ -228,9 +233,7 @@ def _safety(
         return dict.fromkeys(_SAFETY_KEYS)
     seen = np.isfinite(around.nearest)
     closest = int(around.nearest.argmin())
-    ttc = np.nan_to_num(
-        safety.time_to_collision(around.offset, around.velocity, around.radii), nan=np.inf
-    ).min(axis=0)
+    ttc = _absent_is_far(safety.time_to_collision(around.offset, around.velocity, around.radii)).min(axis=0)
     separation = safety.predicted_separation(
         around.offset, around.velocity, around.radii, p.prediction_horizon
     )
@@ -238,7 +241,7 @@ def _safety(
     touched = safety.episodes_below(track.time, around.nearest, 1e-9)
     pets = [_pet(track, person, episode.robot_radius) for person in episode.people]
     ahead = around.offset[..., 0] * track.velocity[:, 0] + around.offset[..., 1] * track.velocity[:, 1] > 0.0
-    in_front = np.nan_to_num(np.where(ahead, around.hull, np.inf), nan=np.inf).min(axis=0)
+    in_front = _absent_is_far(np.where(ahead, around.hull, np.inf)).min(axis=0)
     margin = safety.stopping_margin(in_front, np.abs(track.twist[:, 0]), p.reaction_time, p.deceleration)
     moving = np.isfinite(margin) & (np.abs(track.twist[:, 0]) > motion.STANDING[0])
     met = [abs(pet) for pet in pets if pet is not None]

@@ -25,7 +25,7 @@ def depth_time(time: np.ndarray, distance: np.ndarray, threshold: float) -> Opti
     """Integral of max(0, threshold - d) dt [m s]; NaN distances (nobody there) count as far away."""
     if len(time) < 2:
         return None
-    depth = np.maximum(0.0, threshold - np.nan_to_num(distance, nan=np.inf))
+    depth = np.maximum(0.0, threshold - np.where(np.isnan(distance), np.inf, distance))
     return float((depth * durations(time)).sum())
 
 
@@ -147,8 +147,10 @@ def group_space(
             with np.errstate(invalid="ignore"):
                 linked = apart <= reach
                 inside |= linked & (distance_to_segment(robot, a, b) < radius)
-                side = np.sign((b - a)[:, 0] * (robot - a)[:, 1] - (b - a)[:, 1] * (robot - a)[:, 0])
+                left = (b - a)[:, 0] * (robot - a)[:, 1] - (b - a)[:, 1] * (robot - a)[:, 0] >= 0.0
                 share = ((robot - a) * (b - a)).sum(axis=1) / np.maximum(apart**2, 1e-12)
-                through = (side[1:] * side[:-1] < 0) & linked[1:] & (share[1:] > 0.0) & (share[1:] < 1.0)
+                through = (
+                    (left[1:] != left[:-1]) & linked[1:] & linked[:-1] & (share[1:] > 0.0) & (share[1:] < 1.0)
+                )
             crossings += int(through.sum())
     return (float(durations(time)[inside].sum()) if len(time) > 1 else None), crossings
