@@ -37,7 +37,7 @@ def hall():
 def episode(**changes):
     values = {
         "robot": straight_robot(),
-        "people": [person([10.0, 0.9], [-0.5, 0.0])],
+        "people": [person([10.005, 0.9], [-0.5, 0.0])],
         "goals": [Goal((10.0, 0.0, 0.0), 0.0, 20.0, True)],
         "contacts": [],
         "occupancy": hall(),
