@@ -8,7 +8,7 @@ namespace kobuki_sim {
 namespace {
 
 constexpr std::uint32_t kOdometryQueue = 50;
-constexpr std::uint32_t kPeopleQueue = 20;
+constexpr std::uint32_t kPeopleQueue = 50;
 constexpr std::uint32_t kContactQueue = 100;
 
 }  // namespace

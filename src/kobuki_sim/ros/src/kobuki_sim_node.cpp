@@ -53,9 +53,17 @@ void KobukiSimNode::spin() {
 }
 
 void KobukiSimNode::waitWhilePaused() {
-  simulation_.publishClock();  // for whoever joins
   pacer_.stop();
-  queue_.callAvailable(ros::WallDuration(kMaxWait));
+  serveCallbacks(kMaxWait);
+}
+
+void KobukiSimNode::serveCallbacks(double duration) {
+  const double now = wallTime();
+  if (now - last_reminder_ >= kMaxWait) {
+    simulation_.publishClock();
+    last_reminder_ = now;
+  }
+  queue_.callAvailable(ros::WallDuration(std::min(duration, kMaxWait)));
 }
 
 bool KobukiSimNode::waitForNextStep() {
@@ -72,7 +80,7 @@ bool KobukiSimNode::waitForNextStep() {
                         << " s; going on without it");
   }
   if (wait <= 0.0) return true;
-  queue_.callAvailable(ros::WallDuration(std::min(wait, kMaxWait)));
+  serveCallbacks(wait);
   return false;
 }
 

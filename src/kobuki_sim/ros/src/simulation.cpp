@@ -9,13 +9,18 @@
 #include "kobuki_sim_ros/topics.h"
 
 namespace kobuki_sim {
+namespace {
+
+constexpr std::uint32_t kClockQueue = 100;  // one second
+
+}  // namespace
 
 Simulation::Simulation(ros::NodeHandle& nh, const Parameters& params, const Scenario& scenario,
                        std::uint64_t seed)
     : params_(params),
       world_(scenario, seed, params.base),
       step_length_(static_cast<std::uint64_t>(std::llround(1e9 * world_.timeStep()))),
-      clock_(nh.advertise<rosgraph_msgs::Clock>(kClockTopic, 10)),
+      clock_(nh.advertise<rosgraph_msgs::Clock>(kClockTopic, kClockQueue)),
       commands_(nh, world_),
       base_publisher_(nh, params.node, world_.timeStep()),
       camera_publisher_(nh, params, seed),

@@ -34,6 +34,9 @@ class KobukiSimNode {
   /// Serves callbacks until the next step may be done, for a while at most; whether it may.
   bool waitForNextStep();
   void waitWhilePaused();
+  /// For `duration` [s] of wall time at most. Repeats the clock at 10 Hz, for whoever joins while the world
+  /// stands.
+  void serveCallbacks(double duration);
   void acknowledge(std::size_t participant, const ros::Time& stamp);
 
   bool onReset(sarn_msgs::Reset::Request& request, sarn_msgs::Reset::Response& response);
@@ -47,6 +50,7 @@ class KobukiSimNode {
   LockstepGate gate_;
   RealTimePacer pacer_;
   bool paused_;
+  double last_reminder_ = 0.0;  // [s] wall
   std::vector<ros::Subscriber> lockstep_;
   ros::ServiceServer reset_, pause_, step_, inject_;
 };
