@@ -20,6 +20,7 @@ constexpr double kOutlineTolerance = 0.75;  // [cells]
 constexpr std::size_t kMostWalls = 12;      // nearest edges that a person heeds
 constexpr double kFarthestNudge = 0.5;      // [m] by which a place too near to a wall is corrected
 constexpr double kRobotDent = 0.005;        // [m] overlap that walking into the robot can reach: a touch
+constexpr double kSolidRange = 0.6;         // [m] between bodies that can meet within two decisions
 constexpr double kReturnRoom = 0.15;        // [m] free around a person who is put back
 constexpr double kFastestTurn = 4.0;        // [rad/s] of the torso
 constexpr double kSlowestHeading = 0.15;    // [m/s] below, the torso keeps its direction
@@ -208,6 +209,7 @@ void Crowd::takeSnapshot() {
 }
 
 void Crowd::decide(const RobotDisc& robot) {
+  decision_time_ = params_.decision_period * static_cast<double>(decisions_++);
   takeSnapshot();
   for (std::size_t i = 0; i < people_.size(); ++i) {
     if (reacts(i)) {
@@ -222,7 +224,7 @@ void Crowd::decideFor(std::size_t i, const RobotDisc& robot) {
   PersonState& person = people_[i];
   Walker& walker = walkerOf(i);
   const Vector2d alone =
-      walker.preferredVelocity(person, time_, params_.decision_period, params_, router_.get());
+      walker.preferredVelocity(person, decision_time_, params_.decision_period, params_, router_.get());
   if (walker.wantsToReturn()) {
     person.present = false;
     person.velocity.setZero();
@@ -233,7 +235,7 @@ void Crowd::decideFor(std::size_t i, const RobotDisc& robot) {
   const Vector2d preferred = keepUpWithGroup(i, alone);
   const Vector2d chosen = person.model == PersonModel::kOrca ? orcaChoice(i, preferred, robot)
                                                              : socialForceChoice(i, preferred, robot);
-  if (walker.losesPatience(person, chosen, time_, params_.decision_period, params_))
+  if (walker.losesPatience(person, chosen, decision_time_, params_.decision_period, params_))
     resolveStandOff(i, robot);
   movers_[i].command = chosen + separation(i, robot);
 }
@@ -288,8 +290,30 @@ Vector2d Crowd::socialForceChoice(std::size_t i, const Vector2d& preferred, cons
   if (movers_[i].group >= 0 && !preferred.isZero()) {
     force += groupForce(self, preferred.normalized(), fellows_, params);
   }
-  return limited(self.velocity + params_.decision_period * force,
-                 params_.max_speed_factor * person.preferred_speed);
+  return keptSolid(i, self.velocity + params_.decision_period * force, robot);
+}
+
+/// The nearest velocity with which no bodies run into each other before the next decisions take effect.
+/// Forces alone let people who meet fast overlap.
+Vector2d Crowd::keptSolid(std::size_t i, const Vector2d& wanted, const RobotDisc& robot) {
+  const PersonState& person = people_[i];
+  neighbors_.clear();
+  const auto avoid = [&](const MovingDisc& disc, double responsibility) {
+    const double reach = person.radius + disc.radius + kSolidRange;
+    if ((disc.position - person.position).squaredNorm() < reach * reach) {
+      neighbors_.push_back({disc, responsibility});
+    }
+  };
+  if (person.reacts_to_robot) avoid({robot.position, robot.velocity, robot.radius}, 1.0);
+  for (const Near& near : near_) {
+    const auto j = static_cast<std::size_t>(near.index);
+    avoid(snapshot_[j], reacts(j) ? 0.5 : 1.0);
+  }
+  OrcaParams contact = params_.orca;
+  contact.time_horizon = 2.0 * params_.decision_period;
+  near_walls_.clear();
+  return solver_.velocity(snapshot_[i], wanted, params_.max_speed_factor * person.preferred_speed, contact,
+                          params_.decision_period, neighbors_, near_walls_);
 }
 
 /// Who is ahead of the group slows down, who is behind hurries, who is far aside comes nearer.
@@ -369,7 +393,7 @@ void Crowd::walkAround(std::size_t i, const RobotDisc& robot) {
   Walker& walker = walkerOf(i);
   walker.tryOn(params_);
   if (router_ == nullptr || walker.draw() < kYieldChance) {
-    walker.stepAside(Vector2d::Zero(), time_, params_);
+    walker.stepAside(Vector2d::Zero(), decision_time_, params_);
     return;
   }
   std::vector<Disc> standing;
@@ -381,7 +405,7 @@ void Crowd::walkAround(std::size_t i, const RobotDisc& robot) {
   if (people_[i].reacts_to_robot && robot.velocity.norm() < params_.standing_robot_speed) {
     standing.push_back({robot.position, robot.radius + params_.comfort_gap});
   }
-  walker.takeDetour(people_[i], standing, time_, *router_);
+  walker.takeDetour(people_[i], standing, decision_time_, *router_);
 }
 
 /// The person and everyone near who walks the same way go back, each to the side of the others' way on which
@@ -392,7 +416,7 @@ void Crowd::makeRoom(std::size_t i, std::size_t oncoming) {
   const Vector2d across(-their_way.y(), their_way.x());
   const auto yield = [&](std::size_t j) {
     const double side = across.dot(positions_[j] - positions_[oncoming]) >= 0.0 ? 1.0 : -1.0;
-    walkerOf(j).stepAside((0.5 * their_way + side * across).normalized(), time_, params_);
+    walkerOf(j).stepAside((0.5 * their_way + side * across).normalized(), decision_time_, params_);
   };
   yield(i);
   for (const Near& near : near_) {

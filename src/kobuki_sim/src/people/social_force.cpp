@@ -12,6 +12,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kSmall = 1e-9;
+constexpr double kStraight = 1e-6;  // [rad] rounding does not decide on which side somebody is
 constexpr double kHalfFieldOfView = 0.5 * sarn::kPi;  // [rad] a fellow farther from the gaze is out of sight
 
 /// Direction from a to b, or any where they coincide.
@@ -42,7 +43,7 @@ Vector2d interactionForce(const MovingDisc& self, const MovingDisc& other, const
   const Vector2d normal(-tangent.y(), tangent.x());
   const double range = params.interaction_range * norm;  // B = gamma |D|
   const double angle = signedAngle(tangent, towards);    // theta, positive: the other is on the left
-  const double side = angle >= 0.0 ? 1.0 : -1.0;
+  const double side = angle > -kStraight && angle < sarn::kPi - kStraight ? 1.0 : -1.0;
   const auto bell = [&](double n) { return std::exp(-distance / range - std::pow(n * range * angle, 2)); };
   const double slow = -params.interaction_strength * bell(params.angular_range_slow);
   const double turn = -params.interaction_strength * side * bell(params.angular_range_turn);

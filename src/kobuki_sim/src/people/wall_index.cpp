@@ -87,6 +87,7 @@ class CrackFollower {
   /// Corners of the loop that begins here, only where it turns.
   std::vector<Vector2d> follow(CellIndex corner, int direction) {
     std::vector<Vector2d> loop;
+    const int first = direction;
     int previous = -1;
     while (isNew(corner, direction)) {
       visited_[slot(corner, direction)] = 1;
@@ -95,6 +96,7 @@ class CrackFollower {
       corner = {corner.x + kStepX[direction], corner.y + kStepY[direction]};
       direction = nextDirection(corner, direction);
     }
+    if (previous == first) loop.erase(loop.begin());  // it began in the middle of a straight piece
     return loop;
   }
 

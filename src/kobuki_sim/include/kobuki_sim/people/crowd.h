@@ -80,6 +80,8 @@ class Crowd {
                                            const RobotDisc& robot);
   [[nodiscard]] Eigen::Vector2d socialForceChoice(std::size_t i, const Eigen::Vector2d& preferred,
                                                   const RobotDisc& robot);
+  [[nodiscard]] Eigen::Vector2d keptSolid(std::size_t i, const Eigen::Vector2d& wanted,
+                                          const RobotDisc& robot);
   [[nodiscard]] Eigen::Vector2d keepUpWithGroup(std::size_t i, const Eigen::Vector2d& preferred);
   [[nodiscard]] Eigen::Vector2d separation(std::size_t i, const RobotDisc& robot) const;
   void resolveStandOff(std::size_t i, const RobotDisc& robot);
@@ -99,6 +101,8 @@ class Crowd {
   std::shared_ptr<const Router> router_;  // null: open space
   std::shared_ptr<const WallIndex> walls_;
   double time_ = 0.0;            // [s]
+  std::uint64_t decisions_ = 0;  // taken so far
+  double decision_time_ = 0.0;   // [s] of the present one, the same however long the steps are
   double until_decision_ = 0.0;  // [s]
 
   std::vector<PersonState> people_;

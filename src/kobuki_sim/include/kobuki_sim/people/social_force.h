@@ -19,7 +19,7 @@ struct SocialForceParams {
   double velocity_weight = 2.0;       // lambda: relative velocity against direction
   double wall_strength = 3.0;         // [m/s^2] a
   double wall_range = 0.1;            // [m] > 0, b
-  double contact_stiffness = 40.0;    // [1/s^2] acceleration per overlap of two bodies
+  double contact_stiffness = 80.0;    // [1/s^2] acceleration per overlap of two bodies
   double group_gaze = 4.0;            // [1/s] beta_1: slowing down to see each other
   double group_attraction = 3.0;      // [m/s^2] beta_2: towards the middle of the group
   double group_repulsion = 1.0;       // [m/s^2] beta_3: members who are too near
