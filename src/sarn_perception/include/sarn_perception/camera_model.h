@@ -14,7 +14,7 @@ class DepthInputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a camera says of itself, as in sensor_msgs/CameraInfo: of the full image before binning.
+/// What a camera says of itself, as in a CameraInfo message: of the full image before binning.
 struct CameraCalibration {
   int width = 0;                 // [px]
   int height = 0;                // [px]
