@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "kobuki_sim/base_command.h"
 #include "kobuki_sim/kobuki_sensors.h"
@@ -152,6 +153,26 @@ TEST(KobukiBase, rejectsBadParameters) {
   params = KobukiParams();
   params.battery_empty = 20.0;
   EXPECT_THROW(KobukiBase(params, kDt, 1), std::invalid_argument);
+}
+
+TEST(KobukiParams, shippedYamlHasEveryFieldAndTheDefaults) {
+  const YAML::Node yaml = YAML::LoadFile("config/kobuki_base.yaml");
+  const auto names = sarn::fieldNames<KobukiParams>();
+  EXPECT_EQ(yaml.size(), names.size());
+  KobukiParams params;
+  EXPECT_TRUE(sarn::setFromYaml(yaml, params).empty());
+  for (const std::string& name : names) {
+    KobukiParams without = KobukiParams::ideal();
+    YAML::Node one;
+    ASSERT_TRUE(yaml[name]) << name;
+    one[name] = yaml[name];
+    EXPECT_TRUE(sarn::setFromYaml(one, without).empty()) << name;
+  }
+  const KobukiParams defaults;
+  EXPECT_EQ(params.wheel_separation, defaults.wheel_separation);
+  EXPECT_EQ(params.ticks_per_metre, defaults.ticks_per_metre);
+  EXPECT_EQ(params.gyro_noise, defaults.gyro_noise);
+  EXPECT_EQ(params.over_current, defaults.over_current);
 }
 
 // --- Commands as the driver sends them

@@ -31,8 +31,7 @@ struct KobukiParams {
   // Wheels on the floor
   double wheel_scale_sigma = 0.003;  // [1] of each wheel's error of travelled length
   double wheel_slip_noise = 0.002;   // [m/sqrt(m)] of each wheel, grows with the root of the length
-  double blocked_wheel_slip =
-      0.5;  // [1] share of the lost motion that wheels still turn when something holds the robot
+  double blocked_wheel_slip = 0.5;   // [1] share of the lost motion that wheels turn when the robot is held
 
   // Gyro
   double gyro_noise = 5e-4;         // [rad/s/sqrt(Hz)] white
