@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Crowd navigation by deep value learning: state encoder, policies, environment, training, evaluation."""

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs a policy through cases and says what came of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Dict, Sequence
+
+import numpy as np
+
+from sarn_rl.envs.cases import case_seed, make_case
+from sarn_rl.envs.params import EnvironmentParams
+from sarn_rl.envs.worlds import Outcome, Steps, Worlds
+from sarn_rl.policies.base import Policy
+from sarn_rl.reward import RewardParams, discounted
+
+
+@dataclass(frozen=True)
+class Episodes:
+    """One row a case.
+
+    Attributes:
+        outcomes: (C,) of Outcome, none RUNNING.
+        times: (C,) [s] until the end.
+        steps: (C,) number of steps.
+        discomfort_steps: (C,) of them, nearer to somebody than discomfort_dist.
+        min_separations: (C,) [m] smallest of the episode.
+        returns: (C,) discounted rewards.
+    """
+
+    outcomes: np.ndarray
+    times: np.ndarray
+    steps: np.ndarray
+    discomfort_steps: np.ndarray
+    min_separations: np.ndarray
+    returns: np.ndarray
+
+    def summary(self) -> Dict[str, float]:
+        """Rates, the mean time of successes [s] (nan without any), and the discomfort frequency.
+
+        The discomfort frequency is the share of all steps that were uncomfortable.
+        """
+        success = self.outcomes == Outcome.SUCCESS
+        return {
+            "cases": len(self.outcomes),
+            "success": float(success.mean()),
+            "collision": float((self.outcomes == Outcome.COLLISION).mean()),
+            "timeout": float((self.outcomes == Outcome.TIMEOUT).mean()),
+            "time_s": float(self.times[success].mean()) if success.any() else float("nan"),
+            "discomfort": float(self.discomfort_steps.sum() / max(1, self.steps.sum())),
+            "mean_return": float(self.returns.mean()),
+        }
+
+
+def run_cases(
+    policy: Policy,
+    params: EnvironmentParams,
+    reward: RewardParams,
+    split: str,
+    numbers: Sequence[int],
+    gamma: float = 0.9,
+    peek: bool = False,
+) -> Episodes:
+    """Runs the cases of a split, all at once.
+
+    Args:
+        policy: decides.
+        params: of the world.
+        reward: of the returns; its discomfort_dist says what is uncomfortable.
+        split: validation, test or training.
+        numbers: which cases.
+        gamma: discount of the returns.
+        peek: whether the policy is told where people will be after its step.
+    """
+    if not len(numbers):
+        raise ValueError("cases: none to run")
+    seeds = [case_seed(split, number) for number in numbers]
+    worlds = Worlds(params, reward, policy.kinematics, len(seeds))
+    worlds.begin(range(len(seeds)), [make_case(params.cases, seed) for seed in seeds], seeds)
+    record = _Record(
+        len(seeds), float(discounted(gamma, params.time_step, np.array(params.cases.robot_speed)))
+    )
+    while record.running.any():
+        live = np.flatnonzero(record.running)
+        after = worlds.people_after()[live] if peek else None
+        actions = np.zeros((len(worlds), 2))
+        actions[live] = policy.act(worlds.state.select(live), after)
+        record.add(worlds.step(actions), worlds.times)
+    return record.episodes()
+
+
+class _Record:
+    def __init__(self, count: int, discount: float) -> None:
+        self.running = np.ones(count, dtype=bool)
+        self._discount = discount
+        self._outcomes = np.zeros(count, dtype=int)
+        self._times = np.zeros(count)
+        self._steps = np.zeros(count, dtype=int)
+        self._discomfort = np.zeros(count, dtype=int)
+        self._separations = np.full(count, np.inf)
+        self._returns = np.zeros(count)
+
+    def add(self, steps: Steps, times: np.ndarray) -> None:
+        live = self.running.copy()
+        self._returns[live] += self._discount ** self._steps[live] * steps.rewards[live]
+        self._steps[live] += 1
+        self._discomfort[live] += steps.discomfort[live]
+        self._separations[live] = np.minimum(self._separations, steps.min_separation)[live]
+        self._times[live] = times[live]
+        self._outcomes[live] = steps.outcomes[live]
+        self.running &= steps.outcomes == Outcome.RUNNING
+
+    def episodes(self) -> Episodes:
+        return Episodes(
+            self._outcomes, self._times, self._steps, self._discomfort, self._separations, self._returns
+        )

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""SARL: attention over people (Betancourt et al., equations 1 to 6; Chen et al. 2019)."""
+
+from __future__ import annotations
+
+import torch
+from torch import nn
+
+from sarn_rl.networks.base import PERSON_SIZE, ValueNetwork, mlp, split_linear
+from sarn_rl.networks.neighbourhood import MAP_CHANNELS, neighbourhood_maps
+
+EMBEDDING = (150, 100)  # hidden units of Phi_e
+INTERACTION = (100, 50)  # of Psi_h
+ATTENTION = (100, 100)  # of Psi_alpha, a score follows
+VALUE = (150, 100, 100)  # of f_V, the value follows
+
+
+class SarlNetwork(ValueNetwork):
+    """e_i = Phi_e(s, s_i, M_i), h_i = Psi_h(e_i), alpha_i = Psi_alpha(e_i, mean e),
+    V = f_V(s, sum softmax(alpha) h).
+
+    With nobody there the crowd's representation is zero.
+    """
+
+    def __init__(self, robot_size: int, map_cells: int = 0, map_cell_size: float = 1.0) -> None:
+        super().__init__()
+        self.robot_size = robot_size
+        self._map_cells, self._map_cell_size = map_cells, map_cell_size
+        person_size = PERSON_SIZE + MAP_CHANNELS * map_cells * map_cells
+        self.embedding = mlp((robot_size + person_size, *EMBEDDING), last_relu=True)
+        self.interaction = mlp((EMBEDDING[-1], *INTERACTION))
+        self.attention = mlp((2 * EMBEDDING[-1], *ATTENTION, 1))
+        self.value = mlp((robot_size + INTERACTION[-1], *VALUE, 1))
+
+    def forward(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
+        return self.value(torch.cat([robot, self.crowd(robot, people, present)[0]], dim=-1)).squeeze(-1)
+
+    def crowd(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> tuple:
+        """(representation (B, 50), attention weights (B, P)): equations 1 to 5."""
+        if people.shape[1] == 0:
+            return robot.new_zeros(robot.shape[0], INTERACTION[-1]), robot.new_zeros(robot.shape[0], 0)
+        if self._map_cells:
+            maps = neighbourhood_maps(people, present, self._map_cells, self._map_cell_size)
+            people = torch.cat([people, maps], dim=-1)
+        everybody = bool(present.all())
+        embedded = self._run(self.embedding, robot, people)
+        mean = embedded.mean(dim=1) if everybody else _masked_mean(embedded, present)
+        hidden = self.interaction(embedded)
+        # The mean comes first in the input of Psi_alpha.
+        scores = self._run(self.attention, mean, embedded).squeeze(-1)
+        if not everybody:
+            # A row without anybody gets equal weights of a zero crowd below, and no NaN.
+            scores = scores.masked_fill(~present, torch.finfo(scores.dtype).min)
+        weights = torch.softmax(scores, dim=-1)
+        if not everybody:
+            weights = weights * present
+        return torch.bmm(weights.unsqueeze(1), hidden).squeeze(1), weights
+
+    @staticmethod
+    def _run(layers: nn.Sequential, shared: torch.Tensor, own: torch.Tensor) -> torch.Tensor:
+        out = split_linear(layers[0], shared, own)
+        return layers[1:](out)
+
+
+def _masked_mean(embedded: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
+    weights = present.to(embedded.dtype)
+    total = torch.bmm(weights.unsqueeze(1), embedded).squeeze(1)
+    return total / weights.sum(dim=1, keepdim=True).clamp(min=1.0)

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Episodes of training cases, many side by side, with random actions now and then."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import List
+
+import numpy as np
+
+from sarn_rl.envs.cases import case_seed, make_case
+from sarn_rl.envs.worlds import Outcome, Worlds
+from sarn_rl.lookahead import Lookahead
+from sarn_rl.observation import Observation
+from sarn_rl.policies.value_policy import ValuePolicy
+from sarn_rl.training.imitation import step_discount
+from sarn_rl.training.params import TrainingParams
+from sarn_rl.training.transitions import Transitions, episode_transitions
+
+
+@dataclass(frozen=True)
+class Finished:
+    """An episode that ended.
+
+    Attributes:
+        outcome: how.
+        time: [s] it took.
+        discounted_return: of its rewards.
+        transitions: for the memory.
+    """
+
+    outcome: Outcome
+    time: float
+    discounted_return: float
+    transitions: Transitions
+
+
+class Collector:
+    """Steps N worlds with an epsilon-greedy policy; a world whose episode ends begins the next case."""
+
+    def __init__(
+        self, params: TrainingParams, policy: ValuePolicy, lookahead: Lookahead, first_case: int
+    ) -> None:
+        self._params, self._policy, self._lookahead = params, policy, lookahead
+        self._discount = step_discount(params)
+        count = params.learning.worlds
+        self._worlds = Worlds(params.environment, params.reward, policy.kinematics, count)
+        self._histories: List[_History] = [_History() for _ in range(count)]
+        self.next_case = first_case
+        self._begin(list(range(count)))
+
+    def step(self, epsilon: float, random: np.random.Generator) -> List[Finished]:
+        """One step of all worlds; the episodes that ended with it."""
+        state = self._worlds.state
+        actions, values = self._policy.action_values(state)
+        chosen = values.argmax(axis=1)
+        randomly = random.random(len(chosen)) < epsilon
+        chosen = np.where(randomly, random.integers(values.shape[1], size=len(chosen)), chosen)
+        steps = self._worlds.step(actions[np.arange(len(chosen)), chosen])
+        seen = self._lookahead.encode(self._worlds.state)
+        ended = np.flatnonzero(steps.outcomes != Outcome.RUNNING)
+        for world, history in enumerate(self._histories):
+            history.add(_row(seen, world), float(steps.rewards[world]), bool(randomly[world]))
+        times = self._worlds.times
+        finished = [
+            self._finish(world, Outcome(steps.outcomes[world]), float(times[world])) for world in ended
+        ]
+        self._begin([int(world) for world in ended])
+        return finished
+
+    def _finish(self, world: int, outcome: Outcome, time: float) -> Finished:
+        history, learning = self._histories[world], self._params.learning
+        rewards = np.array(history.rewards)
+        transitions = episode_transitions(
+            Observation(*(np.stack(arrays) for arrays in zip(*history.states))),
+            rewards,
+            np.array(history.randomly),
+            outcome != Outcome.TIMEOUT,
+            self._discount,
+            learning.return_steps,
+            learning.learn_from_random_actions,
+        )
+        gained = float(np.sum(rewards * self._discount ** np.arange(len(rewards))))
+        return Finished(outcome, time, gained, transitions)
+
+    def _begin(self, worlds: List[int]) -> None:
+        if not worlds:
+            return
+        seeds = [case_seed("training", self.next_case + k) for k in range(len(worlds))]
+        self.next_case += len(worlds)
+        cases = [make_case(self._params.environment.cases, seed) for seed in seeds]
+        self._worlds.begin(worlds, cases, seeds)
+        seen = self._lookahead.encode(self._worlds.state)
+        for world in worlds:
+            self._histories[world] = _History()
+            self._histories[world].states.append(_row(seen, world))
+
+
+class _History:
+    def __init__(self) -> None:
+        self.states: List[Observation] = []
+        self.rewards: List[float] = []
+        self.randomly: List[bool] = []
+
+    def add(self, state: Observation, reward: float, randomly: bool) -> None:
+        self.states.append(state)
+        self.rewards.append(reward)
+        self.randomly.append(randomly)
+
+
+def _row(observation: Observation, world: int) -> Observation:
+    return Observation(*(array[world] for array in observation))

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Gradient steps: regression on returns, and deep V-learning against a target network."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any, Dict, Tuple
+
+import numpy as np
+import torch
+
+from sarn_rl.networks.base import ValueNetwork
+from sarn_rl.observation import Observation, mirrored
+from sarn_rl.training.params import LearningParams
+from sarn_rl.training.replay import ReplayMemory
+
+
+class DivergedError(RuntimeError):
+    """A loss or weight is not finite any more."""
+
+
+def tensors(observation: Observation) -> Tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
+    return (
+        torch.from_numpy(observation.robot),
+        torch.from_numpy(observation.people),
+        torch.from_numpy(observation.present),
+    )
+
+
+def mirror_half(observation: Observation, which: np.ndarray) -> Observation:
+    """The samples `which` (B,) bool seen in a mirror."""
+    other = mirrored(observation)
+    return Observation(
+        np.where(which[:, None], other.robot, observation.robot),
+        np.where(which[:, None, None], other.people, observation.people),
+        observation.present,
+    )
+
+
+def set_learning_rate(optimizer: torch.optim.Optimizer, rate: float) -> None:
+    for group in optimizer.param_groups:
+        group["lr"] = rate
+
+
+class Learner:
+    """Deep V-learning (Chen et al. 2019, algorithm 1): V(s) towards r + gamma V_target(s').
+
+    Targets are computed when they are used, never stored.
+    """
+
+    def __init__(self, network: ValueNetwork, params: LearningParams) -> None:
+        self.network = network
+        self.target = copy.deepcopy(network).requires_grad_(False)
+        self._params = params
+        self._optimizer = torch.optim.Adam(network.parameters(), lr=params.learning_rate, fused=True)
+        self.updates = 0
+
+    def set_learning_rate(self, rate: float) -> None:
+        set_learning_rate(self._optimizer, rate)
+
+    def update(self, memory: ReplayMemory, beta: float, random: np.random.Generator) -> float:
+        """One gradient step; the mean squared error of the batch. DivergedError when it is not finite."""
+        places, batch, weights = memory.sample(self._params.batch_size, beta, random)
+        state = Observation(batch.robot, batch.people, batch.present)
+        after = Observation(batch.next_robot, batch.next_people, batch.present)
+        if self._params.mirror:
+            which = random.random(len(places)) < 0.5
+            state, after = mirror_half(state, which), mirror_half(after, which)
+        with torch.no_grad():
+            later = self.target(*tensors(after))
+            goal = torch.from_numpy(batch.reward) + torch.from_numpy(batch.discount) * later
+        errors = self.network(*tensors(state)) - goal
+        loss = (torch.from_numpy(weights) * errors * errors).mean()
+        self._descend(loss)
+        numbers = errors.detach().numpy()
+        memory.update(places, numbers)
+        return float(np.mean(numbers * numbers))
+
+    def _descend(self, loss: torch.Tensor) -> None:
+        self._optimizer.zero_grad(set_to_none=True)
+        loss.backward()
+        norm = torch.nn.utils.clip_grad_norm_(self.network.parameters(), self._params.gradient_clip)
+        if not bool(torch.isfinite(norm)):
+            raise DivergedError(f"the gradient is not finite after {self.updates} updates")
+        self._optimizer.step()
+        self.updates += 1
+        if self.updates % self._params.target_update_steps == 0:
+            self.refresh_target()
+
+    def refresh_target(self) -> None:
+        self.target.load_state_dict(self.network.state_dict())
+
+    def state(self) -> Dict[str, Any]:
+        return {
+            "network": self.network.state_dict(),
+            "target": self.target.state_dict(),
+            "optimizer": self._optimizer.state_dict(),
+            "updates": self.updates,
+        }
+
+    def restore(self, state: Dict[str, Any]) -> None:
+        self.network.load_state_dict(state["network"])
+        self.target.load_state_dict(state["target"])
+        self._optimizer.load_state_dict(state["optimizer"])
+        self.updates = state["updates"]

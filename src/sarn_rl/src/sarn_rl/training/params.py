@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Everything that a training run is told: config/*.yaml has these keys."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Tuple
+
+import yaml
+
+from sarn_rl.actions import ActionParams
+from sarn_rl.contract import Contract, robot_features
+from sarn_rl.declared import ParameterError, from_dict
+from sarn_rl.envs.params import EnvironmentParams
+from sarn_rl.networks.params import NetworkParams
+from sarn_rl.reward import RewardParams
+
+OPTIMIZERS = ("adam", "sgd")
+
+
+def _positive(params: object, names: Tuple[str, ...]) -> Tuple[str, ...]:
+    return tuple(
+        f"{name}: {getattr(params, name)} is not > 0" for name in names if not getattr(params, name) > 0
+    )
+
+
+@dataclass(frozen=True)
+class ImitationParams:
+    """Regression on the returns of ORCA demonstrations.
+
+    Attributes:
+        episodes: training cases to demonstrate, from case 0.
+        safety_space: [m] that the demonstrating robot adds to every radius.
+        epochs: passes over the demonstrations.
+        batch_size: samples of a gradient step.
+        learning_rate: at the beginning; falls to a hundredth along a cosine.
+        optimizer: adam or sgd (momentum 0.9).
+        keep: whether the demonstrations are put into the replay memory.
+    """
+
+    episodes: int = 2000
+    safety_space: float = 0.15
+    epochs: int = 20
+    batch_size: int = 256
+    learning_rate: float = 0.002
+    optimizer: str = "adam"
+    keep: bool = True
+
+    def problems(self) -> Tuple[str, ...]:
+        found = list(_positive(self, ("batch_size", "learning_rate")))
+        if self.episodes < 0 or self.epochs < 0:
+            found.append(f"episodes, epochs: {self.episodes}, {self.epochs} are not both >= 0")
+        if self.safety_space < 0.0:
+            found.append(f"safety_space: {self.safety_space} m is not >= 0")
+        if self.optimizer not in OPTIMIZERS:
+            found.append(f"optimizer: '{self.optimizer}' is none of {', '.join(OPTIMIZERS)}")
+        return tuple(found)
+
+
+@dataclass(frozen=True)
+class ReplayParams:
+    """Attributes:
+    capacity: transitions kept.
+    prioritised: proportional prioritised replay (Schaul et al. 2016), else uniform.
+    alpha: exponent of priorities.
+    beta_start: exponent of importance weights at the beginning; 1 at the end of the training.
+    """
+
+    capacity: int = 100_000
+    prioritised: bool = True
+    alpha: float = 0.6
+    beta_start: float = 0.4
+
+    def problems(self) -> Tuple[str, ...]:
+        found = list(_positive(self, ("capacity",)))
+        if not 0.0 <= self.alpha <= 1.0:
+            found.append(f"alpha: {self.alpha} is not in 0..1")
+        if not 0.0 <= self.beta_start <= 1.0:
+            found.append(f"beta_start: {self.beta_start} is not in 0..1")
+        return tuple(found)
+
+
+@dataclass(frozen=True)
+class LearningParams:
+    """Deep V-learning.
+
+    Attributes:
+        episodes: how many.
+        worlds: episodes that run side by side.
+        updates_per_step: gradient steps after each step of all worlds.
+        batch_size: transitions of a gradient step.
+        learning_rate: of Adam.
+        final_learning_rate: at the last episode; falls along a cosine.
+        epsilon_start, epsilon_end: share of random actions, falling linearly over epsilon_episodes.
+        epsilon_episodes: see above.
+        return_steps: n of n-step returns; they end before the next random action.
+        learn_from_random_actions: whether a state that a random action left is learned from.
+        target_update_steps: gradient steps between copies to the target network.
+        mirror: whether half of the samples are seen in a mirror.
+        gradient_clip: largest norm of a gradient.
+        validation_episodes: episodes between validations (on the 100 validation cases).
+        checkpoint_episodes: episodes between checkpoints.
+        warmup_episodes: episodes before the first gradient step.
+    """
+
+    episodes: int = 4000
+    worlds: int = 32
+    updates_per_step: int = 4
+    batch_size: int = 128
+    learning_rate: float = 0.001
+    final_learning_rate: float = 0.0001
+    epsilon_start: float = 0.5
+    epsilon_end: float = 0.1
+    epsilon_episodes: int = 3000
+    return_steps: int = 1
+    learn_from_random_actions: bool = False
+    target_update_steps: int = 200
+    mirror: bool = True
+    gradient_clip: float = 1.0
+    validation_episodes: int = 500
+    checkpoint_episodes: int = 500
+    warmup_episodes: int = 0
+
+    def problems(self) -> Tuple[str, ...]:
+        names = (
+            "worlds",
+            "batch_size",
+            "learning_rate",
+            "final_learning_rate",
+            "epsilon_episodes",
+            "return_steps",
+            "target_update_steps",
+            "gradient_clip",
+            "validation_episodes",
+            "checkpoint_episodes",
+        )
+        found = list(_positive(self, names))
+        for name in ("episodes", "updates_per_step", "warmup_episodes"):
+            if getattr(self, name) < 0:
+                found.append(f"{name}: {getattr(self, name)} is not >= 0")
+        for name in ("epsilon_start", "epsilon_end"):
+            if not 0.0 <= getattr(self, name) <= 1.0:
+                found.append(f"{name}: {getattr(self, name)} is not in 0..1")
+        return tuple(found)
+
+
+@dataclass(frozen=True)
+class TrainingParams:
+    """Attributes:
+    seed: of weights, actions and samples; cases have their own.
+    gamma: discount for a second at 1 m/s.
+    network, actions, reward, environment, imitation, replay, learning: see there.
+    """
+
+    seed: int = 1
+    gamma: float = 0.9
+    network: NetworkParams = field(default_factory=NetworkParams)
+    actions: ActionParams = field(default_factory=ActionParams)
+    reward: RewardParams = field(default_factory=RewardParams)
+    environment: EnvironmentParams = field(default_factory=EnvironmentParams)
+    imitation: ImitationParams = field(default_factory=ImitationParams)
+    replay: ReplayParams = field(default_factory=ReplayParams)
+    learning: LearningParams = field(default_factory=LearningParams)
+
+    def problems(self) -> Tuple[str, ...]:
+        found = []
+        if not 0 <= self.seed < 2**32:
+            found.append(f"seed: {self.seed} is not in 0..2^32-1")
+        if not 0.0 < self.gamma < 1.0:
+            found.append(f"gamma: {self.gamma} is not in (0, 1)")
+        return tuple(found)
+
+    def contract(self) -> Contract:
+        """What the trained network must be used with."""
+        cases = self.environment.cases
+        return Contract(
+            time_step=self.environment.time_step,
+            gamma=self.gamma,
+            robot_radius=cases.robot_radius,
+            people_radius=cases.people_radius,
+            preferred_speed=cases.robot_speed,
+            network=self.network,
+            actions=self.actions,
+            reward=self.reward,
+            robot_features=robot_features(self.actions.kinematics),
+        )
+
+
+def load_params(path: Path) -> TrainingParams:
+    """Reads a YAML file. ParameterError names file and key of every problem."""
+    try:
+        document = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ParameterError(f"{path}: cannot be read ({error.strerror})") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise ParameterError(f"{path}: not YAML: {' '.join(str(error).split())}") from error
+    return from_dict(TrainingParams, document, str(path))
