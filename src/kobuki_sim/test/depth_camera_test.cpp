@@ -7,6 +7,7 @@
 
 #include "drawn_map.h"
 #include "sarn_common/angles.h"
+#include "sarn_common/parameters.h"
 
 namespace kobuki_sim {
 namespace {
@@ -172,6 +173,15 @@ TEST(DepthCamera, repeatsAnImageFromSeedAndFrame) {
   EXPECT_EQ(camera.render(map, {4.5, 3.5, 0.1}, people, 3).millimetres, third);
   EXPECT_EQ(DepthCamera({}, 7).render(map, {4.5, 3.5, 0.1}, people, 3).millimetres, third);
   EXPECT_NE(DepthCamera({}, 8).render(map, {4.5, 3.5, 0.1}, people, 3).millimetres, third);
+}
+
+TEST(DepthCameraParams, shippedFileNamesEveryField) {
+  const YAML::Node node = YAML::LoadFile("config/depth_camera.yaml");
+  DepthCameraParams params;
+  EXPECT_EQ(sarn::setFromYaml(node, params), std::vector<std::string>{});
+  std::vector<std::string> keys;
+  for (const auto& entry : node) keys.push_back(entry.first.as<std::string>());
+  EXPECT_EQ(keys, sarn::fieldNames<DepthCameraParams>());
 }
 
 TEST(DepthCamera, refusesParametersWithEveryProblem) {
