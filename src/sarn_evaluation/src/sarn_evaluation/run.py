@@ -77,6 +77,7 @@ def _environment(run_dir: Path, port: int) -> Dict[str, str]:
         SARN_RUN_DIR=str(run_dir),
         SARN_PROGRESS_PERIOD="0.5" if sys.stdout.isatty() else "5.0",
         PYTHONUNBUFFERED="1",
+        ROSCONSOLE_STDOUT_LINE_BUFFERED="1",
     )
     environment.pop("ROS_IP", None)
     return environment
