@@ -193,6 +193,9 @@ void Search::preparePeopleField() {
   task.time_weight = params_.time_weight;
   task.length_weight = params_.length_weight;
   task.max_speed = lattice_.maxSpeed();
+  task.goal_x = request_.goal.x;
+  task.goal_y = request_.goal.y;
+  task.goal_radius = params_.xy_goal_tolerance;
   task.start_x = request_.start.x;
   task.start_y = request_.start.y;
   task.start_time = request_.start.t;

@@ -29,6 +29,7 @@ void SpaceTimeField::reset(const SpaceTimeTask& task, DistanceField& distance) {
     const double reach = task.max_speed * k * time_step_ + kLeastReach;
     stepBack(rates_, next_rates_, costs_[static_cast<std::size_t>(k + 1)],
              costs_[static_cast<std::size_t>(k)], reach);
+    keepArrivals(task, costs_[static_cast<std::size_t>(k)]);
     rates_.swap(next_rates_);
   }
 }
@@ -128,6 +129,25 @@ void SpaceTimeField::stepBack(const std::vector<float>& rates, const std::vector
       for (int i = 0; i < count; ++i) {
         out[i] = std::min(out[i], move.cost + half_duration * (rate[i] + to_rate[i]) + to[i]);
       }
+    }
+  }
+}
+
+/// The goal absorbs: to be there costs no more early than late. Without this, every second before the horizon's end
+/// would look like a second still to pay, and the search would rather dawdle than arrive.
+void SpaceTimeField::keepArrivals(const SpaceTimeTask& task, std::vector<float>& costs) const {
+  const std::vector<float>& last = costs_[static_cast<std::size_t>(steps_)];
+  const int reach = static_cast<int>(std::ceil(task.goal_radius / cell_));
+  const int column = static_cast<int>(std::lround((task.goal_x - origin_x_) / cell_));
+  const int row = static_cast<int>(std::lround((task.goal_y - origin_y_) / cell_));
+  for (int y = std::max(row - reach, 0); y <= std::min(row + reach, height_ - 1); ++y) {
+    for (int x = std::max(column - reach, 0); x <= std::min(column + reach, width_ - 1); ++x) {
+      const double dx = origin_x_ + x * cell_ - task.goal_x;
+      const double dy = origin_y_ + y * cell_ - task.goal_y;
+      const bool nearest = x == column && y == row;
+      if (!nearest && std::hypot(dx, dy) > task.goal_radius) continue;
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+      costs[i] = std::min(costs[i], last[i]);
     }
   }
 }

@@ -21,6 +21,9 @@ struct SpaceTimeTask {
   double time_weight = 1.0;    // [1/s]
   double length_weight = 0.0;  // [1/m]
   double max_speed = 0.5;      // [m/s]
+  double goal_x = 0.0;         // [m]
+  double goal_y = 0.0;         // [m]
+  double goal_radius = 0.0;    // [m] whoever is this near has arrived, at any time
   double start_x = 0.0;        // [m]
   double start_y = 0.0;        // [m]
   double start_time = 0.0;     // [s]
@@ -51,6 +54,7 @@ class SpaceTimeField {
   };
 
   void layOut(const SpaceTimeTask& task);
+  void keepArrivals(const SpaceTimeTask& task, std::vector<float>& costs) const;
   void sampleStatic(const SpaceTimeTask& task, DistanceField& distance);
   void sampleRates(const SpaceTimeTask& task, double t, std::vector<float>& rates) const;
   void stepBack(const std::vector<float>& rates, const std::vector<float>& next_rates,
