@@ -31,7 +31,7 @@ struct SocialParams {
   bool isotropic_standing = true;         // standing people have neither front nor side
   double uncertainty_factor = 1.0;        // variance grows by factor * sigma^2 of the prediction
   bool keep_amplitude = false;            // false: the expected cost (same volume, lower peak)
-  double forbidden_sigma_limit = 0.0;     // [m] less certain positions block nothing; 0: always block
+  double forbidden_sigma_limit = 0.5;     // [m] less certain positions block nothing; 0: always block
   double extrapolation_sigma_rate = 0.1;  // [m/s] least growth of sigma after the last predicted state
 
   double group_amplitude = 180.0;    // cost of the space that a group shares
