@@ -253,7 +253,8 @@ class PyWorldBatch {
   void reset(const Doubles& robot_start, const Doubles& robot_goal, const Doubles& people_start,
              const Doubles& people_goal, const py::object& worlds, const py::object& robot_theta,
              const py::object& robot_radius, const py::object& robot_speed, const py::object& people_radius,
-             const py::object& people_speed, const py::object& people_count, const py::object& seeds);
+             const py::object& people_speed, const py::object& people_count, const py::object& seeds,
+             const py::object& robot_velocity, const py::object& people_velocity);
   py::tuple step(const Doubles& actions);
 
   py::array_t<double> robots() const {
@@ -327,7 +328,8 @@ void PyWorldBatch::reset(const Doubles& robot_start, const Doubles& robot_goal, 
                          const Doubles& people_goal, const py::object& worlds, const py::object& robot_theta,
                          const py::object& robot_radius, const py::object& robot_speed,
                          const py::object& people_radius, const py::object& people_speed,
-                         const py::object& people_count, const py::object& seeds) {
+                         const py::object& people_count, const py::object& seeds,
+                         const py::object& robot_velocity, const py::object& people_velocity) {
   std::vector<py::ssize_t> indices;
   if (worlds.is_none()) {
     for (py::ssize_t i = 0; i < n_; ++i) indices.push_back(i);
@@ -347,6 +349,8 @@ void PyWorldBatch::reset(const Doubles& robot_start, const Doubles& robot_goal, 
   const Doubles speed = broadcast("robot_speed", robot_speed, {m}, 0.0);
   const Doubles radii = broadcast("people_radius", people_radius, {m, p_}, 1e-3);
   const Doubles speeds = broadcast("people_speed", people_speed, {m, p_}, 0.0);
+  const Doubles velocity = broadcast("robot_velocity", robot_velocity, {m, 2}, -1e9);
+  const Doubles velocities = broadcast("people_velocity", people_velocity, {m, p_, 2}, -1e9);
   std::vector<py::ssize_t> counts(indices.size(), p_);
   if (!people_count.is_none()) counts = people_count.cast<std::vector<py::ssize_t>>();
   std::vector<std::uint64_t> seed_list(indices.size(), 0);
@@ -362,6 +366,7 @@ void PyWorldBatch::reset(const Doubles& robot_start, const Doubles& robot_goal, 
     const auto r = static_cast<py::ssize_t>(k);
     TrainingAgent robot;
     robot.disc.position = {robot_start.at(r, 0), robot_start.at(r, 1)};
+    robot.disc.velocity = {velocity.at(r, 0), velocity.at(r, 1)};
     robot.disc.radius = radius.at(r);
     robot.goal = {robot_goal.at(r, 0), robot_goal.at(r, 1)};
     robot.preferred_speed = speed.at(r);
@@ -369,6 +374,7 @@ void PyWorldBatch::reset(const Doubles& robot_start, const Doubles& robot_goal, 
     for (std::size_t j = 0; j < people.size(); ++j) {
       const auto c = static_cast<py::ssize_t>(j);
       people[j].disc.position = {people_start.at(r, c, 0), people_start.at(r, c, 1)};
+      people[j].disc.velocity = {velocities.at(r, c, 0), velocities.at(r, c, 1)};
       people[j].disc.radius = radii.at(r, c);
       people[j].goal = {people_goal.at(r, c, 0), people_goal.at(r, c, 1)};
       people[j].preferred_speed = speeds.at(r, c);
@@ -457,6 +463,7 @@ Raises:
            py::arg("robot_theta") = 1.5707963267948966, py::arg("robot_radius") = 0.3,
            py::arg("robot_speed") = 1.0, py::arg("people_radius") = 0.3, py::arg("people_speed") = 1.0,
            py::arg("people_count") = py::none(), py::arg("seeds") = py::none(),
+           py::arg("robot_velocity") = 0.0, py::arg("people_velocity") = 0.0,
            R"(Begins new episodes in some worlds.
 
 Args:
@@ -467,7 +474,9 @@ Args:
     robot_radius, robot_speed: [m], preferred [m/s], number or (M,).
     people_radius, people_speed: [m], preferred [m/s], number or (M, P).
     people_count: M numbers of people, the first of the P rows; None: all P.
-    seeds: M seeds of the simulated base's errors ("turtlebot" only); None: 0.)")
+    seeds: M seeds of the simulated base's errors ("turtlebot" only); None: 0.
+    robot_velocity, people_velocity: [m/s] at the start, number or (M, 2), (M, P, 2). A simulated base starts from
+        rest all the same.)")
       .def("step", &PyWorldBatch::step, py::arg("actions"), R"(One action in every world.
 
 Args:

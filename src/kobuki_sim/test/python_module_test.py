@@ -238,3 +238,21 @@ def test_world_errors_are_value_errors_of_one_line() -> None:
         kobuki_sim.World("no/such.yaml")
     with pytest.raises(ValueError, match="not finite"):
         kobuki_sim.World(SCENARIO).command(float("nan"), 0.0)
+
+
+def test_batch_begins_with_the_velocities_that_are_given() -> None:
+    batch = kobuki_sim.WorldBatch(2, 1, robot_visible=False)
+    start, goal = np.zeros((2, 2)), np.tile([4.0, 0.0], (2, 1))
+    people = np.tile([2.0, 0.3], (2, 1, 1))
+    velocities = np.array([[[-1.0, 0.0]], [[0.0, 1.0]]])
+    batch.reset(
+        start, goal, people, -people, people_velocity=velocities, robot_velocity=[[0.5, 0.0], [0.0, 0.0]]
+    )
+    assert batch.robots[:, 2].tolist() == [0.5, 0.0]
+    assert np.array_equal(batch.people[:, :, 2:4], velocities)
+    # Who comes towards the robot is avoided, who leaves is not.
+    coming, leaving = batch.orca_actions()
+    assert abs(coming[1]) > 1e-3
+    assert leaving == pytest.approx([1.0, 0.0])
+    with pytest.raises(ValueError, match="people_velocity"):
+        batch.reset(start, goal, people, -people, people_velocity=np.full((2, 1, 2), np.nan))
