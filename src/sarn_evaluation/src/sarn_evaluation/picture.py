@@ -94,13 +94,21 @@ def _draw_marks(axes: Any, episode: Episode, track: RobotTrack) -> None:
         axes.plot(*judged.contact.point, "X", color=colour, markersize=12, markeredgecolor="black", zorder=8)
 
 
+def _size(episode: Episode) -> Tuple[float, float]:
+    """Width and height of the picture [inch] for the shape of the map."""
+    if episode.occupancy is None:
+        return 12.0, 9.0
+    x_min, x_max, y_min, y_max = episode.occupancy.extent
+    return 12.0, float(np.clip(10.0 * (y_max - y_min) / (x_max - x_min) + 1.2, 4.0, 12.0))
+
+
 def draw(episode: Episode, file: Path, title: str = "") -> None:
     """Writes the picture (PNG, or what the file's name says). Needs no display."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     track = episode.driven()
-    figure = Figure(figsize=(12.0, 8.0), dpi=110)
+    figure = Figure(figsize=_size(episode), dpi=110)
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     _draw_map(axes, episode)

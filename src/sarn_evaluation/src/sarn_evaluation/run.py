@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -18,7 +19,11 @@ from typing import Dict, List, Sequence, TextIO
 from sarn_evaluation.progress import PREFIX
 from sarn_evaluation.scenario import ScenarioError, load_scenario
 
-_ALARM = re.compile(r"\b(WARN|ERROR|FATAL)\b|^FATAL|Traceback|REQUIRED process .* has died|RLException")
+# scenario_runner ends when the run is over; that roslaunch alarms at this is no news.
+_ALARM = re.compile(
+    r"\b(WARN|ERROR|FATAL)\b|Traceback|RLException|error loading|"
+    r"REQUIRED process \[(?!scenario_runner).* has died"
+)
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _ROSLAUNCH_PATIENCE = 40.0  # [s] wall; its own limits for its nodes (15 s, 2 s) come first
 
@@ -225,18 +230,32 @@ def run(words: Sequence[str], runs: Path) -> int:
     )
     print(f"writing {run_dir}", flush=True)
     finished = launch(launch_file, arguments, run_dir)
-    return _judge(run_dir, finished)
+    recorded = arguments.get("record", "true").lower() not in ("false", "0")
+    succeeded = _judge_bag(run_dir) if recorded else _believe_runner(run_dir)
+    return 0 if succeeded and finished else 1
 
 
-def _judge(run_dir: Path, finished: bool) -> int:
+def _judge_bag(run_dir: Path) -> bool:
     from sarn_evaluation.judgement import judge_run
 
-    bag = run_dir / "run.bag"
-    if not bag.is_file():
-        print(f"no bag in {run_dir}; what happened is in {run_dir / 'launch.log'}", file=sys.stderr)
-        return 1
-    succeeded = judge_run(run_dir)
-    return 0 if succeeded and finished else 1
+    if (run_dir / "run.bag").is_file():
+        return judge_run(run_dir)
+    print(f"no bag in {run_dir}; what happened is in {run_dir / 'launch.log'}", file=sys.stderr)
+    return False
+
+
+def _believe_runner(run_dir: Path) -> bool:
+    """Without a bag there is only what the scenario runner saw."""
+    try:
+        episode = json.loads((run_dir / "episode.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        print(f"the run did not end; what happened is in {run_dir / 'launch.log'}", file=sys.stderr)
+        return False
+    reason = f" ({episode['reason']})" if episode["reason"] else ""
+    print(
+        f"{episode['outcome']}: {episode['goals_reached']} of {episode['goals_total']} goals{reason}; not recorded"
+    )
+    return bool(episode["outcome"] == "success")
 
 
 __all__ = ["ScenarioError", "UsageError", "launch", "launch_arguments", "run", "scenario_file"]

@@ -74,13 +74,14 @@ class ScenarioRunner:
         self._line = ProgressLine(sys.stdout, period)
         self._rate = RateMeter()
         self._start: Optional[float] = None  # [s] simulated
+        self._wall_start = 0.0  # [s]
 
     def run(self) -> EpisodeResult:
         """Drives the scenario; what came of it."""
         outcome, reason, reached = EpisodeResult.ABORTED, "interrupted", 0
         try:
             self._wait_until_everything_is_up()
-            self._start = rospy.get_time()
+            self._start, self._wall_start = rospy.get_time(), time.monotonic()
             self._measurements.start()
             outcome, reason = EpisodeResult.SUCCESS, ""
             for index, pose in enumerate(self._scenario.goals):
@@ -179,6 +180,8 @@ class ScenarioRunner:
         """On the topic (for the bag) and into run_dir/episode.json."""
         content = {slot: getattr(result, slot) for slot in result.__slots__ if slot != "header"}
         content["outcome"] = OUTCOMES[result.outcome]
+        elapsed = time.monotonic() - self._wall_start
+        content["real_time_factor"] = None if self._start is None else result.duration / elapsed
         (self._run_dir / "episode.json").write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
         if not rospy.is_shutdown():
             self._result.publish(result)

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the packages' benches and the whole stack: build/bench.json and a table (see tools/bench)."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Callable, Dict, Iterator, List, Tuple
+
+ROOT = Path(__file__).resolve().parents[1]
+PROGRAMS = ROOT / "devel" / "lib"
+RUN = ROOT / "build" / "bench_run"
+
+Figures = Dict[str, float]
+
+# What the issue of the main job asks for; "<" smaller is better.
+GOALS: Dict[str, Tuple[str, float]] = {
+    "world.realtime_factor.10_people": (">", 1000.0),
+    "world.realtime_factor.1000_people": (">", 20.0),
+    "world.steps_per_s.64_worlds_5_people": (">", 500_000.0),
+    "depth.frame_ms": ("<", 2.0),
+    "social_layers.update_ms": ("<", 3.0),
+    "stack.realtime_factor": (">", 5.0),
+    "stack.dropped_messages": ("<", 0.0),
+}
+
+
+class BenchError(RuntimeError):
+    """A bench that failed; one line."""
+
+
+def _json_lines(command: List[str]) -> Iterator[Dict[str, object]]:
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
+    if done.returncode != 0:
+        raise BenchError(f"{' '.join(command)}: exit code {done.returncode}")
+    for line in done.stdout.splitlines():
+        if line.startswith("{"):
+            yield json.loads(line)
+
+
+def _named_values(command: List[str]) -> Figures:
+    """Figures of a bench that prints {"name": ..., "value": ...} or {NAME: number, ...}."""
+    figures: Figures = {}
+    for line in _json_lines(command):
+        if "name" in line:
+            figures[str(line["name"])] = float(line["value"])  # type: ignore[arg-type]
+        else:
+            figures.update({name: float(value) for name, value in line.items()})  # type: ignore[arg-type]
+    return figures
+
+
+def world() -> Figures:
+    """The world alone, on one core; and many worlds through the Python module."""
+    batch = ROOT / "src" / "kobuki_sim" / "bench" / "bench_world_batch.py"
+    return {
+        **_named_values([str(PROGRAMS / "kobuki_sim" / "bench_world")]),
+        **_named_values([sys.executable, str(batch)]),
+    }
+
+
+def depth() -> Figures:
+    """One frame of the simulated depth camera."""
+    return _named_values([str(PROGRAMS / "kobuki_sim" / "depth_camera_bench")])
+
+
+def social_layers() -> Figures:
+    """One update of all time layers."""
+    return _named_values([str(PROGRAMS / "social_costmap" / "social_costmap_bench")])
+
+
+def planner() -> Figures:
+    """100 tasks on the office map, among people."""
+    command = [
+        str(PROGRAMS / "lattice_planner" / "lattice_planner_bench"),
+        str(ROOT / "launch/maps/office.yaml"),
+    ]
+    command += ["--params", str(ROOT / "src/lattice_planner/config/lattice_planner.yaml"), "--name", "office"]
+    figures: Figures = {}
+    for line in _json_lines(command):
+        if line.get("name") == "office.people":
+            figures["planner.office.search_ms.median"] = float(line["search_ms_median"])  # type: ignore[arg-type]
+            figures["planner.office.search_ms.p99"] = float(line["search_ms_p99"])  # type: ignore[arg-type]
+    return figures
+
+
+def _dropped(bag_file: Path) -> int:
+    """Messages missing in the numbering of the publishers (odometry, scan), and scans missing in time."""
+    import rosbag
+
+    last: Dict[str, Tuple[int, float]] = {}
+    missing = 0
+    with rosbag.Bag(str(bag_file)) as bag:
+        for topic, message, _ in bag.read_messages(topics=["/odom", "/ground_truth/odom", "/scan"]):
+            number, stamp = message.header.seq, message.header.stamp.to_sec()
+            if topic in last:
+                by_number = number - last[topic][0] - 1
+                by_time = round((stamp - last[topic][1]) * 30.0) - 1 if topic == "/scan" else 0
+                missing += max(by_number, by_time, 0)
+            last[topic] = (number, stamp)
+    return missing
+
+
+def stack() -> Figures:
+    """All nodes, as fast as they keep up, through the default scenario."""
+    shutil.rmtree(RUN, ignore_errors=True)
+    command = [
+        sys.executable,
+        "-m",
+        "sarn_evaluation",
+        "run",
+        "scenario:=office",
+        "rate:=0",
+        f"run_dir:={RUN}",
+    ]
+    subprocess.run(command, stdout=sys.stderr, check=False)
+    try:
+        episode = json.loads((RUN / "episode.json").read_text(encoding="utf-8"))
+    except OSError:
+        raise BenchError(f"the stack did not run; see {RUN / 'launch.log'}") from None
+    if episode["outcome"] != "success":
+        print(f"stack: the run ended with {episode['outcome']}: {episode['reason']}", file=sys.stderr)
+    figures = {"stack.dropped_messages": float(_dropped(RUN / "run.bag"))}
+    if episode["real_time_factor"] is not None:
+        figures["stack.realtime_factor"] = float(episode["real_time_factor"])
+    return figures
+
+
+BENCHES: Dict[str, Callable[[], Figures]] = {
+    "world": world,
+    "depth": depth,
+    "social_layers": social_layers,
+    "planner": planner,
+    "stack": stack,
+}
+
+
+def _machine() -> str:
+    model = platform.processor() or platform.machine()
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.is_file():
+        lines = cpuinfo.read_text(encoding="utf-8").splitlines()
+        model = next(
+            (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), model
+        )
+    return f"{model}, {os.cpu_count()} cores"
+
+
+def _commit() -> str:
+    done = subprocess.run(
+        ["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    return done.stdout.strip() or "unknown"
+
+
+def table(figures: Figures) -> str:
+    """Figures beside their goals."""
+    width = max(len(name) for name in figures)
+    lines = [f"machine: {_machine()}", f"commit:  {_commit()}"]
+    for name, value in sorted(figures.items()):
+        goal = ""
+        if name in GOALS:
+            sign, bound = GOALS[name]
+            met = value >= bound if sign == ">" else value <= bound
+            goal = f"   goal {'>=' if sign == '>' else '<='} {bound:g}: {'met' if met else 'MISSED'}"
+        lines.append(f"  {name.ljust(width)}  {value:12.4g}{goal}")
+    return "\n".join(lines)
+
+
+def main() -> int:
+    """Exit code 0: every bench ran (whether or not it met its goal)."""
+    wanted = sys.argv[1:] or list(BENCHES)
+    unknown = [name for name in wanted if name not in BENCHES]
+    if unknown:
+        print(f"error: no bench '{unknown[0]}'; known: {', '.join(BENCHES)}", file=sys.stderr)
+        return 2
+    figures: Figures = {}
+    failed = False
+    for name in wanted:
+        print(f"bench: {name} ...", flush=True)
+        try:
+            figures.update(BENCHES[name]())
+        except (BenchError, OSError, ValueError, KeyError) as error:
+            failed = True
+            print(f"error: bench {name}: {error}", file=sys.stderr)
+    if figures:
+        (ROOT / "build" / "bench.json").write_text(
+            json.dumps(figures, indent=2, sort_keys=True) + "\n", encoding="utf-8"
+        )
+        print(table(figures))
+    return 1 if failed or not figures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
