@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any, Dict, List
+from typing import Any, Dict, List, Optional
 
 from sarn_evaluation.bag_reader import read_bag
 from sarn_evaluation.episode import Episode
@@ -54,11 +54,21 @@ def verdict(result: Dict[str, Any]) -> str:
     return f"{'SUCCESS' if outcome['success'] else 'FAILED'}: {goals}, {caused}{reason}"
 
 
+def _episode_file(file: Path) -> Optional[Dict[str, Any]]:
+    try:
+        content: Dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return content
+
+
 def judge_run(run_dir: Path) -> bool:
     """Judges run_dir/run.bag and prints what came of it; True when all goals were reached without fault."""
     from sarn_evaluation.picture import draw
 
     episode = read_bag(run_dir / "run.bag")
+    if episode.result is None:  # interrupted: the runner could write its file, but not publish any more
+        episode.result = _episode_file(run_dir / "episode.json")
     result = result_of(episode)
     (run_dir / "result.json").write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
     draw(episode, run_dir / "picture.png", verdict(result))

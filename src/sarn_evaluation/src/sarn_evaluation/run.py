@@ -252,9 +252,8 @@ def _believe_runner(run_dir: Path) -> bool:
         print(f"the run did not end; what happened is in {run_dir / 'launch.log'}", file=sys.stderr)
         return False
     reason = f" ({episode['reason']})" if episode["reason"] else ""
-    print(
-        f"{episode['outcome']}: {episode['goals_reached']} of {episode['goals_total']} goals{reason}; not recorded"
-    )
+    goals = f"{episode['goals_reached']} of {episode['goals_total']} goals"
+    print(f"{episode['outcome']}: {goals}{reason}; not recorded")
     return bool(episode["outcome"] == "success")
 
 
