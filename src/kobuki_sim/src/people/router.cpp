@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <queue>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -23,7 +21,6 @@ constexpr double kRim = 1.5;         // [m] around map and points
 constexpr std::size_t kMostCells = 4'000'000;
 constexpr double kComfort = 0.1;       // [m] kept between body and wall where there is room
 constexpr double kFarthestSnap = 0.6;  // [m] from a point to the nearest open cell
-constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
 sarn::GridGeometry coverage(const StaticMap& map, const std::vector<Vector2d>& points) {
   Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity());
@@ -64,20 +61,6 @@ float clearanceAt(const StaticMap& map, const Vector2d& p) {
   return static_cast<float>(wall ? wall->distance : kFullClearance);
 }
 
-double octile(const CellIndex& a, const CellIndex& b) {
-  const int dx = std::abs(a.x - b.x);
-  const int dy = std::abs(a.y - b.y);
-  return std::max(dx, dy) + (std::sqrt(2.0) - 1.0) * std::min(dx, dy);
-}
-
-struct Open {
-  double estimate;
-  std::uint32_t index;
-  bool operator>(const Open& other) const {
-    return estimate != other.estimate ? estimate > other.estimate : index > other.index;
-  }
-};
-
 }  // namespace
 
 Router::Router(const StaticMap& map, const std::vector<Vector2d>& points, std::vector<Disc> standing)
@@ -110,7 +93,9 @@ bool Router::routeAround(const Vector2d& a, const Vector2d& b, double radius, co
     return true;
   }
   for (const double comfort : {kComfort, 0.0}) {
-    if (!search(a, b, openCells(radius, comfort, discs), way)) continue;
+    std::vector<Disc> covered = discs;
+    for (Disc& disc : covered) disc.radius += radius + 0.5 * comfort;
+    if (!searchWay(a, b, {&clearance_, radius + comfort, &covered}, way)) continue;
     pullTight(radius + 0.5 * comfort, discs, way);
     return true;
   }
@@ -130,24 +115,7 @@ bool Router::isStraight(const Vector2d& a, const Vector2d& b, double radius,
   return canWalkStraight(map_, a, b, radius);
 }
 
-std::vector<char> Router::openCells(double body, double comfort, const std::vector<Disc>& discs) const {
-  const sarn::GridGeometry& grid = clearance_.geometry;
-  std::vector<char> open(grid.size());
-  for (std::size_t i = 0; i < open.size(); ++i) open[i] = clearance_.cells[i] >= body + comfort ? 1 : 0;
-  for (const Disc& disc : discs) {
-    const double reach = disc.radius + body + 0.5 * comfort;
-    const CellIndex low = grid.cellAtUnbounded(disc.center.x() - reach, disc.center.y() - reach);
-    const CellIndex high = grid.cellAtUnbounded(disc.center.x() + reach, disc.center.y() + reach);
-    for (int y = std::max(0, low.y); y <= std::min(grid.height - 1, high.y); ++y) {
-      for (int x = std::max(0, low.x); x <= std::min(grid.width - 1, high.x); ++x) {
-        if ((grid.center({x, y}) - disc.center).norm() < reach) open[grid.index({x, y})] = 0;
-      }
-    }
-  }
-  return open;
-}
-
-bool Router::nearestOpenCell(const Vector2d& p, const std::vector<char>& open, CellIndex& cell) const {
+bool Router::nearestOpenCell(const Vector2d& p, const RouteSearch& search, CellIndex& cell) const {
   const sarn::GridGeometry& grid = clearance_.geometry;
   const CellIndex middle = grid.cellAtUnbounded(p.x(), p.y());
   const int reach = static_cast<int>(std::ceil(kFarthestSnap / grid.resolution));
@@ -156,7 +124,7 @@ bool Router::nearestOpenCell(const Vector2d& p, const std::vector<char>& open, C
   for (int y = middle.y - reach; y <= middle.y + reach; ++y) {
     for (int x = middle.x - reach; x <= middle.x + reach; ++x) {
       const CellIndex candidate{x, y};
-      if (!grid.contains(candidate) || open[grid.index(candidate)] == 0) continue;
+      if (!search.isOpen(candidate)) continue;
       const Vector2d center = grid.center(candidate);
       const double distance = (center - p).norm();
       if (distance >= best || !map_->segmentFree(p, center)) continue;
@@ -168,50 +136,18 @@ bool Router::nearestOpenCell(const Vector2d& p, const std::vector<char>& open, C
   return found;
 }
 
-bool Router::search(const Vector2d& a, const Vector2d& b, const std::vector<char>& open_cells,
-                    std::vector<Vector2d>& way) const {
-  const sarn::GridGeometry& grid = clearance_.geometry;
+bool Router::searchWay(const Vector2d& a, const Vector2d& b, const SearchSpace& space,
+                       std::vector<Vector2d>& way) const {
+  thread_local RouteSearch search;
+  thread_local std::vector<CellIndex> cells;
+  search.enter(space);
   CellIndex start;
   CellIndex goal;
-  if (!nearestOpenCell(a, open_cells, start) || !nearestOpenCell(b, open_cells, goal)) return false;
-  std::vector<float> cost(grid.size(), kUnreached);
-  std::vector<std::uint32_t> parent(grid.size());
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  const auto index = [&](const CellIndex& c) { return static_cast<std::uint32_t>(grid.index(c)); };
-  const auto isOpen = [&](const CellIndex& c) { return grid.contains(c) && open_cells[grid.index(c)] != 0; };
-  cost[index(start)] = 0.0F;
-  parent[index(start)] = index(start);
-  open.push({octile(start, goal), index(start)});
-  while (!open.empty()) {
-    const Open best = open.top();
-    open.pop();
-    const CellIndex cell{static_cast<int>(best.index) % grid.width,
-                         static_cast<int>(best.index) / grid.width};
-    if (cell == goal) break;
-    if (best.estimate > cost[best.index] + octile(cell, goal) + 1e-3) continue;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const CellIndex next{cell.x + dx, cell.y + dy};
-        if ((dx == 0 && dy == 0) || !isOpen(next)) continue;
-        if (dx != 0 && dy != 0 && (!isOpen({cell.x + dx, cell.y}) || !isOpen({cell.x, cell.y + dy})))
-          continue;
-        const float step = dx != 0 && dy != 0 ? static_cast<float>(std::sqrt(2.0)) : 1.0F;
-        const float candidate = cost[best.index] + step;
-        if (candidate >= cost[index(next)]) continue;
-        cost[index(next)] = candidate;
-        parent[index(next)] = best.index;
-        open.push({candidate + octile(next, goal), index(next)});
-      }
-    }
-  }
-  if (cost[index(goal)] == kUnreached) return false;
-  way.assign(1, b);
-  for (std::uint32_t i = index(goal);; i = parent[i]) {
-    way.push_back(grid.center({static_cast<int>(i) % grid.width, static_cast<int>(i) / grid.width}));
-    if (parent[i] == i) break;
-  }
-  way.push_back(a);
-  std::reverse(way.begin(), way.end());
+  if (!nearestOpenCell(a, search, start) || !nearestOpenCell(b, search, goal)) return false;
+  if (!search.find(start, goal, cells)) return false;
+  way.assign(1, a);
+  for (const CellIndex& cell : cells) way.push_back(clearance_.geometry.center(cell));
+  way.push_back(b);
   return true;
 }
 

@@ -13,10 +13,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLookPeriod = 0.5;  // [s] between two looks whether the way ahead is straight
-constexpr double kDetourTime = 8.0;  // [s] for which a detour is not shortened
-constexpr double kLeanPeriod = 1.0;  // [s] between two draws of the lean
-constexpr double kStopTime = 0.5;    // [s] in which a person brakes at the last waypoint
+constexpr double kLookPeriod = 0.5;         // [s] between two looks whether the way ahead is straight
+constexpr double kDetourTime = 8.0;         // [s] for which a detour is not shortened
+constexpr std::size_t kLongestWayBack = 3;  // [points] of the route
+constexpr double kLeanPeriod = 1.0;         // [s] between two draws of the lean
+constexpr double kStopTime = 0.5;           // [s] in which a person brakes at the last waypoint
 constexpr double kToleranceGrowth =
     0.2;  // [m/s] somebody who stands on the waypoint makes it reached from farther
 constexpr double kLargestTolerance = 1.5;  // [m]
@@ -71,18 +72,23 @@ void Walker::passReachedPoints(const Vector2d& position, const CrowdParams& para
   enterLeg(itinerary_.next(leg_));
 }
 
-/// Looks ahead: takes a shorter way when the next point but one is in sight, asks for another route when the
-/// next point is not.
+/// Looks ahead: takes a shorter way when the next point but one is in sight. When the next point is not, goes
+/// back to the last one that is, or asks for another route.
 void Walker::refreshRoute(const PersonState& self, double time, const Router* router) {
   if (router == nullptr || time < next_look_ || time < detour_until_) return;
   next_look_ = time + kLookPeriod;
-  const double body = 0.95 * self.radius;
-  if (!isLastPoint() && router->sees(self.position, route_[route_point_ + 1], body)) {
+  const auto sees = [&](std::size_t k) { return router->sees(self.position, route_[k], 0.95 * self.radius); };
+  if (!isLastPoint() && sees(route_point_ + 1)) {
     ++route_point_;
-  } else if (route_in_doubt_ || !router->sees(self.position, route_[route_point_], body)) {
-    if (router->route(self.position, Vector2d(route_.back()), self.radius, {}, route_)) route_point_ = 1;
+    return;
   }
-  route_in_doubt_ = false;
+  const std::size_t earliest = route_point_ > kLongestWayBack ? route_point_ - kLongestWayBack : 0;
+  for (std::size_t k = route_point_ + 1; k-- > earliest;) {
+    if (!sees(k)) continue;
+    route_point_ = k;
+    return;
+  }
+  if (router->route(self.position, Vector2d(route_.back()), self.radius, {}, route_)) route_point_ = 1;
 }
 
 void Walker::takeDetour(const PersonState& self, const std::vector<Disc>& obstacles, double time,
@@ -134,7 +140,6 @@ void Walker::stepAside(const Vector2d& direction, double time, const CrowdParams
     yield_direction_ = rotated(direction_, side * sarn::kPi * random_.uniform(0.5, 0.95));
   }
   yield_until_ = time + params.yield_time * random_.uniform(1.0, 2.0);
-  route_in_doubt_ = true;
   tryOn(params);
 }
 

@@ -4,16 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "kobuki_sim/people/route_search.h"
 #include "kobuki_sim/static_map.h"
 #include "sarn_common/grid.h"
 
 namespace kobuki_sim {
-
-/// Something round to walk around.
-struct Disc {
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();  // [m]
-  double radius = 0.0;                               // [m] with the room to keep
-};
 
 /// Walkable ways around walls and standing people: A* (Hart, Nilsson and Raphael 1968) over a grid of the
 /// clearance to walls, then pulled tight like a string wherever the body fits straight through. Answers
@@ -36,12 +31,10 @@ class Router {
  private:
   [[nodiscard]] bool routeAround(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius,
                                  const std::vector<Disc>& discs, std::vector<Eigen::Vector2d>& way) const;
-  [[nodiscard]] bool nearestOpenCell(const Eigen::Vector2d& p, const std::vector<char>& open,
+  [[nodiscard]] bool nearestOpenCell(const Eigen::Vector2d& p, const RouteSearch& search,
                                      sarn::CellIndex& cell) const;
-  [[nodiscard]] std::vector<char> openCells(double body, double comfort,
-                                            const std::vector<Disc>& discs) const;
-  [[nodiscard]] bool search(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                            const std::vector<char>& open_cells, std::vector<Eigen::Vector2d>& way) const;
+  [[nodiscard]] bool searchWay(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const SearchSpace& space,
+                               std::vector<Eigen::Vector2d>& way) const;
   [[nodiscard]] bool isStraight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius,
                                 const std::vector<Disc>& discs) const;
   void pullTight(double radius, const std::vector<Disc>& discs, std::vector<Eigen::Vector2d>& way) const;

@@ -30,7 +30,7 @@ class Walker {
   [[nodiscard]] bool losesPatience(const PersonState& self, const Eigen::Vector2d& chosen, double time,
                                    double period, const CrowdParams& params);
   /// Leaves the way for a while (drawn from yield_time), towards the unit vector `direction` or, where that
-  /// is zero, in a drawn direction backwards and aside; then looks for a way anew.
+  /// is zero, in a drawn direction backwards and aside.
   void stepAside(const Eigen::Vector2d& direction, double time, const CrowdParams& params);
   /// Takes another way, around `obstacles`, and keeps to it for a while.
   void takeDetour(const PersonState& self, const std::vector<Disc>& obstacles, double time,
@@ -67,9 +67,8 @@ class Walker {
   std::vector<Eigen::Vector2d> route_;  // points of the present leg, perhaps re-routed
   std::size_t route_point_ = 0;         // walking to this one
   bool wants_to_return_ = false;
-  bool route_in_doubt_ = false;  // ask for another route at the next look
-  double next_look_;             // [s]
-  double detour_until_ = 0.0;    // [s]
+  double next_look_;           // [s]
+  double detour_until_ = 0.0;  // [s]
 
   Eigen::Vector2d direction_ = Eigen::Vector2d::Zero();
   double lean_angle_ = 0.0;    // [rad]
