@@ -20,8 +20,8 @@ GoalTable::GoalTable(const PlannerParams& params, const MotionLattice& lattice)
     : lattice_(lattice),
       radius_(params.table_radius),
       resolution_(params.table_resolution),
-      xy_tolerance_(params.xy_goal_tolerance + 0.5 * params.table_resolution),
-      yaw_tolerance_(params.yaw_goal_tolerance + sarn::kPi / params.table_headings),
+      xy_tolerance_(params.xy_goal_tolerance + std::sqrt(2.0) * params.table_resolution),
+      yaw_tolerance_(params.yaw_goal_tolerance + 2.0 * sarn::kPi / params.table_headings),
       time_weight_(params.time_weight),
       half_(static_cast<int>(std::ceil(radius_ / resolution_)) + 1),
       side_(2 * half_ + 1),
@@ -234,10 +234,15 @@ float GoalTable::floorAt(double x, double y) const {
   if (!inside(x, y)) return 0.0F;
   const int ix = static_cast<int>(std::lround(x / resolution_)) + half_;
   const int iy = static_cast<int>(std::lround(y / resolution_)) + half_;
-  return floors_[static_cast<std::size_t>(iy * side_ + ix)];
+  return std::max(0.0F, floors_[static_cast<std::size_t>(iy * side_ + ix)] - margin());
 }
 
 float GoalTable::at(double x, double y, double theta, int v, int omega) const {
+  const float simple = simpleBound(x, y, theta, v, omega);
+  return inside(x, y) ? std::max(simple, guess(x, y, theta, v, omega) - margin()) : simple;
+}
+
+float GoalTable::guess(double x, double y, double theta, int v, int omega) const {
   if (!inside(x, y)) return simpleBound(x, y, theta, v, omega);
   const double gx = x / resolution_ + half_;
   const double gy = y / resolution_ + half_;

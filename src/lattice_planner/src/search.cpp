@@ -210,7 +210,10 @@ float Search::estimate(const SearchState& state) const {
       people_field_.at(state.x, state.y, request_.start.t + state.step * params_.time_step);
   const Eigen::Vector2d p = goal_from_map_ * Eigen::Vector2d(state.x, state.y);
   if (place.cost == kInfinity) return state.h;
-  if (table_.covers(p.x(), p.y())) return std::max(state.h, place.cost);
+  if (table_.covers(p.x(), p.y())) {
+    const float near = table_.guess(p.x(), p.y(), state.theta - request_.goal.theta, state.v, state.omega);
+    return std::max({state.h, place.cost, near});
+  }
   const double slope = std::hypot(place.slope_x, place.slope_y);
   const auto share = static_cast<float>(std::min(1.0, slope / lattice_.costPerMetre()));
   const double direction = std::atan2(-place.slope_y, -place.slope_x);
@@ -449,6 +452,12 @@ void Search::finish(Outcome outcome, PlanResult& result) {
 /// The paper's fallback: the goal at any heading and speed, else the best expanded state; each brought to a
 /// safe stop.
 void Search::finishPartial(Outcome outcome, PlanResult& result) {
+  if (!staticallyConnected()) {  // coming closer as the crow flies would be of no use
+    progress_.clear();
+    best_any_pose_ = kNoState;
+    outcome = Outcome::kExhausted;
+    result.timed_out = false;
+  }
   std::vector<StateId> candidates;
   if (best_any_pose_ != kNoState) candidates.push_back(best_any_pose_);
   candidates.insert(candidates.end(), progress_.rbegin(), progress_.rend());
@@ -476,6 +485,32 @@ void Search::finishPartial(Outcome outcome, PlanResult& result) {
   }
   result.cost = pool_[*end].g;
   result.trajectory = trajectoryTo(*end);
+}
+
+/// Is there any way from start to goal in the static layer, for a robot that moves from cell to cell?
+bool Search::staticallyConnected() const {
+  const sarn::GridGeometry& g = costmap_.geometry;
+  std::vector<bool> seen(g.size(), false);
+  std::vector<sarn::CellIndex> reached;
+  const auto visit = [&](const sarn::CellIndex& cell) {
+    if (!g.contains(cell) || seen[g.index(cell)]) return;
+    if (forbidden_static_[costmap_.static_costs[g.index(cell)]] && !escape_.exemptsStatic(cell)) return;
+    seen[g.index(cell)] = true;
+    reached.push_back(cell);
+  };
+  visit(g.cellAtUnbounded(request_.start.x, request_.start.y));
+  const double half = 0.5 * g.resolution;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const sarn::CellIndex cell = reached[i];
+    const Eigen::Vector2d p = g.center(cell);
+    const double dx = std::max(0.0, std::abs(p.x() - request_.goal.x) - half);
+    const double dy = std::max(0.0, std::abs(p.y() - request_.goal.y) - half);
+    if (std::hypot(dx, dy) < params_.xy_goal_tolerance - 1e-9) return true;
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) visit({cell.x + x, cell.y + y});
+    }
+  }
+  return false;
 }
 
 /// Brakes from a state as hard as the lattice can, on the first arc that is free at the time; the standing

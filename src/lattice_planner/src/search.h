@@ -66,6 +66,7 @@ class Search {
   void finish(Outcome outcome, PlanResult& result);
   void finishPartial(Outcome outcome, PlanResult& result);
   [[nodiscard]] std::optional<StateId> safeStop(StateId from, bool check_collisions);
+  [[nodiscard]] bool staticallyConnected() const;
   [[nodiscard]] bool standsFreeOfPeople(StateId id) const;
   [[nodiscard]] sarn::TimedTrajectory trajectoryTo(StateId id) const;
 

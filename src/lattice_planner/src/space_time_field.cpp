@@ -133,8 +133,8 @@ void SpaceTimeField::stepBack(const std::vector<float>& rates, const std::vector
   }
 }
 
-/// The goal absorbs: to be there costs no more early than late. Without this, every second before the horizon's end
-/// would look like a second still to pay, and the search would rather dawdle than arrive.
+/// The goal absorbs: to be there costs no more early than late. Without this, every second before the
+/// horizon's end would look like a second still to pay, and the search would rather dawdle than arrive.
 void SpaceTimeField::keepArrivals(const SpaceTimeTask& task, std::vector<float>& costs) const {
   const std::vector<float>& last = costs_[static_cast<std::size_t>(steps_)];
   const int reach = static_cast<int>(std::ceil(task.goal_radius / cell_));
@@ -146,7 +146,8 @@ void SpaceTimeField::keepArrivals(const SpaceTimeTask& task, std::vector<float>&
       const double dy = origin_y_ + y * cell_ - task.goal_y;
       const bool nearest = x == column && y == row;
       if (!nearest && std::hypot(dx, dy) > task.goal_radius) continue;
-      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+      const auto i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
       costs[i] = std::min(costs[i], last[i]);
     }
   }

@@ -10,11 +10,12 @@
 namespace lattice_planner {
 
 /// Obstacle-free cost to go near the goal, over the robot's pose in the goal's frame and its speeds: what
-/// turning, braking and approaching the goal cost at least.
+/// turning, braking and approaching the goal cost.
 ///
 /// Value iteration V <- min_a c(a) + V(next), interpolated between the grid's nodes, from below: V starts at
-/// a lower bound and rises to the fixed point, so that it is a lower bound after any number of sweeps. The
-/// goal region is widened by what the interpolation can add.
+/// a lower bound and rises to the fixed point. Costs come in whole actions, so that between nodes V can be
+/// wrong by one: the lower bound at() takes one action's time off, the sharper guess() does not. The goal
+/// region is widened to the nodes around it, so that V is zero in all of it.
 class GoalTable {
  public:
   GoalTable(const PlannerParams& params, const MotionLattice& lattice);
@@ -23,8 +24,11 @@ class GoalTable {
   /// True where at() interpolates: within the radius of the goal.
   [[nodiscard]] bool covers(double x, double y) const { return inside(x, y); }
   [[nodiscard]] double radius() const { return radius_; }  // [m]
-  /// Lower bound for the pose in the goal's frame and lattice speeds; the simple bound outside the radius.
+  /// Lower bound for the pose in the goal's frame and lattice speeds; outside the radius from turning,
+  /// braking and distance alone.
   [[nodiscard]] float at(double x, double y, double theta, int v, int omega) const;
+  /// As at(), but the likely value.
+  [[nodiscard]] float guess(double x, double y, double theta, int v, int omega) const;
   /// Smallest value over all headings and speeds of the nodes around a place in the goal's frame; 0 outside.
   [[nodiscard]] float floorAt(double x, double y) const;
 
@@ -44,6 +48,7 @@ class GoalTable {
     float cost;
   };
 
+  [[nodiscard]] float margin() const { return static_cast<float>(time_weight_ * lattice_.timeStep()); }
   [[nodiscard]] bool inside(double x, double y) const;
   [[nodiscard]] double wrapHeading(double theta, std::size_t count) const;
   [[nodiscard]] float interpolate(std::size_t node, float fx, float fy, std::size_t low, std::size_t high,
