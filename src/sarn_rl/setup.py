@@ -6,6 +6,7 @@ setup(
     **generate_distutils_setup(
         packages=[
             "sarn_rl",
+            "sarn_rl.cli",
             "sarn_rl.envs",
             "sarn_rl.evaluation",
             "sarn_rl.networks",

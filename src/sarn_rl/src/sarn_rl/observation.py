@@ -75,7 +75,7 @@ def encode(robots: np.ndarray, people: np.ndarray, present: np.ndarray, with_the
     encoded[..., 4] = people[..., RADIUS]
     encoded[..., 5] = np.sqrt(dx * dx + dy * dy)
     encoded[..., 6] = people[..., RADIUS] + robots[..., RADIUS, None]
-    mask = np.broadcast_to(present, dx.shape)
+    mask = np.array(np.broadcast_to(present, dx.shape))
     if not present.all():
         encoded[~mask] = 0.0
     return Observation(robot, encoded, mask)

@@ -51,9 +51,10 @@ class ValuePolicy(Policy):
 
 def network_values(network: ValueNetwork, observation: Observation) -> np.ndarray:
     """V of observations with any leading axes, flat (B,), without gradients."""
-    robot = observation.robot.reshape(-1, observation.robot.shape[-1])
-    people = observation.people.reshape(-1, *observation.people.shape[-2:])
-    present = np.ascontiguousarray(observation.present).reshape(people.shape[:2])
+    count = observation.robot.size // observation.robot.shape[-1]
+    robot = observation.robot.reshape(count, -1)
+    people = observation.people.reshape(count, *observation.people.shape[-2:])
+    present = observation.present.reshape(people.shape[:2])
     with torch.inference_mode():
         values = network(torch.from_numpy(robot), torch.from_numpy(people), torch.from_numpy(present))
     flat: np.ndarray = values.numpy()

@@ -15,7 +15,7 @@ from sarn_rl.training.params import LearningParams
 from sarn_rl.training.replay import ReplayMemory
 
 
-class DivergedError(RuntimeError):
+class DivergedError(ArithmeticError):
     """A loss or weight is not finite any more."""
 
 

@@ -1,0 +1,312 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A training run: imitation, then deep V-learning, with checkpoints that it can go on from."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections import deque
+from pathlib import Path
+from typing import Any, Deque, Dict, List, TextIO
+
+import numpy as np
+import torch
+import yaml
+
+from sarn_rl.checkpoint import Checkpoint, CheckpointError, save_atomically, save_checkpoint
+from sarn_rl.declared import differences, to_dict
+from sarn_rl.envs.cases import SPLIT_SIZES
+from sarn_rl.envs.worlds import Outcome
+from sarn_rl.evaluation.episodes import run_cases
+from sarn_rl.networks.factory import make_network
+from sarn_rl.policies.value_policy import ValuePolicy
+from sarn_rl.training.collector import Collector, Finished
+from sarn_rl.training.commit import source_commit
+from sarn_rl.training.imitation import Demonstrations, cosine, demonstrate, imitate
+from sarn_rl.training.learner import DivergedError, Learner
+from sarn_rl.training.params import TrainingParams
+from sarn_rl.training.progress import ProgressLine
+from sarn_rl.training.replay import ReplayMemory
+
+STATE_FILE = "training_state.pt"
+LAST_FILE = "last.pt"
+BEST_FILE = "best.pt"
+LOG_FILE = "log.jsonl"
+CONFIG_FILE = "config.yaml"
+
+
+class Trainer:
+    """Trains one network into a directory.
+
+    Writes config.yaml, log.jsonl (a line an event), last.pt and best.pt (best validation), training_state.pt
+    (everything needed to go on) and TensorBoard files. Same parameters and seed: same weights.
+
+    Args:
+        params: what to train.
+        directory: where to; made if missing.
+        resume: goes on from training_state.pt if it is there.
+        out: where progress is shown.
+    """
+
+    def __init__(
+        self, params: TrainingParams, directory: Path, resume: bool = False, out: TextIO = sys.stderr
+    ) -> None:
+        self._params, self._directory = params, Path(directory)
+        self._progress = ProgressLine(out)
+        self._contract = params.contract()
+        self._lookahead = self._contract.make_lookahead()
+        torch.manual_seed(params.seed)
+        self._random = np.random.default_rng(params.seed)
+        self._network = make_network(params.network, len(self._contract.robot_features), params.gamma)
+        self._policy = ValuePolicy(self._network, self._lookahead)
+        self._learner = Learner(self._network, params.learning)
+        self._episodes = 0
+        self._next_case = params.imitation.episodes
+        self._best = (-1.0, -np.inf)
+        self._seconds: Dict[str, float] = {}
+        self._recent: Deque[Finished] = deque(maxlen=200)
+        self._restored: Dict[str, Any] = {}
+        self._prepare_directory(resume)
+
+    def run(self) -> Dict[str, float]:
+        """Trains to the end; the last validation. DivergedError keeps the checkpoints written before."""
+        with _event_writer(self._directory) as events:
+            self._events = events
+            demonstrations = self._timed("demonstrations", self._demonstrate)
+            memory = ReplayMemory(self._params.replay, demonstrations.transitions)
+            if self._restored:
+                memory.restore(self._restored.pop("memory"))
+            else:
+                self._timed("imitation", lambda: self._imitate(demonstrations))
+                if self._params.imitation.keep:
+                    memory.add(demonstrations.transitions)
+                self._validate()
+            self._learn(memory)
+            self._save(memory)
+            result = self._validate()
+            self._progress.close()
+            return result
+
+    # --- Phases
+
+    def _demonstrate(self) -> Demonstrations:
+        self._progress.show("demonstrations ...")
+        demonstrations = demonstrate(self._params, self._lookahead)
+        self._log("demonstrations", samples=len(demonstrations.returns), success=demonstrations.success)
+        return demonstrations
+
+    def _imitate(self, demonstrations: Demonstrations) -> None:
+        def report(epoch: int, loss: float) -> None:
+            self._progress.show(
+                f"imitation: epoch {epoch} of {self._params.imitation.epochs}, loss {loss:.5f}"
+            )
+            self._log("imitation", epoch=epoch, loss=loss)
+
+        mirror = self._params.learning.mirror
+        imitate(self._network, demonstrations, self._params.imitation, mirror, self._random, report)
+        self._learner.refresh_target()
+
+    def _learn(self, memory: ReplayMemory) -> None:
+        learning = self._params.learning
+        collector = Collector(self._params, self._policy, self._lookahead, self._next_case)
+        warm = self._episodes + learning.warmup_episodes if not self._learner.updates else 0
+        while self._episodes < learning.episodes:
+            before = self._episodes
+            finished = self._timed("collection", lambda: collector.step(self._epsilon(), self._random))
+            for episode in finished:
+                memory.add(episode.transitions)
+                self._count(episode)
+            self._next_case = collector.next_case
+            if self._episodes >= warm and len(memory) >= learning.batch_size:
+                self._timed("gradient_steps", lambda: self._update(memory))
+            self._after(before, memory)
+
+    def _update(self, memory: ReplayMemory) -> None:
+        learning, replay = self._params.learning, self._params.replay
+        progress = self._episodes / max(1, learning.episodes)
+        self._learner.set_learning_rate(
+            cosine(learning.learning_rate, learning.final_learning_rate, progress)
+        )
+        beta = replay.beta_start + (1.0 - replay.beta_start) * min(1.0, progress)
+        for _ in range(learning.updates_per_step):
+            self._loss = self._learner.update(memory, beta, self._random)
+
+    def _after(self, before: int, memory: ReplayMemory) -> None:
+        learning = self._params.learning
+        if _passed(before, self._episodes, 10):
+            self._show()
+        if _passed(before, self._episodes, learning.validation_episodes):
+            self._validate()
+        if _passed(before, self._episodes, learning.checkpoint_episodes):
+            self._save(memory)
+
+    def _epsilon(self) -> float:
+        learning = self._params.learning
+        share = min(1.0, self._episodes / learning.epsilon_episodes)
+        return learning.epsilon_start + (learning.epsilon_end - learning.epsilon_start) * share
+
+    # --- What is told
+
+    def _count(self, episode: Finished) -> None:
+        self._episodes += 1
+        self._recent.append(episode)
+        self._log(
+            "episode",
+            quiet=True,
+            number=self._episodes,
+            outcome=episode.outcome.name.lower(),
+            time_s=episode.time,
+            discounted_return=episode.discounted_return,
+        )
+
+    def _show(self) -> None:
+        learning = self._params.learning
+        success = float(np.mean([episode.outcome == Outcome.SUCCESS for episode in self._recent]))
+        loss = getattr(self, "_loss", float("nan"))
+        rate = self._episodes / max(1e-9, self._spent("collection") + self._spent("gradient_steps"))
+        left = (learning.episodes - self._episodes) / max(rate, 1e-9) / 60.0
+        self._progress.show(
+            f"episode {self._episodes} of {learning.episodes}, epsilon {self._epsilon():.2f}, recent success "
+            f"{success:.2f}, loss {loss:.5f}, {rate:.1f} episodes/s, {left:.1f} min left"
+        )
+        for name, value in (("success", success), ("loss", loss), ("epsilon", self._epsilon())):
+            self._events.add_scalar(f"training/{name}", value, self._episodes)
+
+    def _validate(self) -> Dict[str, float]:
+        result = self._timed("validation", self._run_validation)
+        self._log("validation", episodes=self._episodes, updates=self._learner.updates, **result)
+        for name, value in result.items():
+            self._events.add_scalar(f"validation/{name}", value, self._episodes)
+        self._progress.line(
+            f"validation after {self._episodes} episodes: success {result['success']:.2f}, collision "
+            f"{result['collision']:.2f}, time {result['time_s']:.2f} s, discomfort {result['discomfort']:.3f}"
+        )
+        score = (result["success"], result["mean_return"])
+        if score > self._best:
+            self._best = score
+            self._save_network(BEST_FILE, result)
+        return result
+
+    def _run_validation(self) -> Dict[str, float]:
+        params = self._params
+        numbers = range(SPLIT_SIZES["validation"])
+        episodes = run_cases(
+            self._policy, params.environment, params.reward, "validation", numbers, params.gamma
+        )
+        return episodes.summary()
+
+    def _timed(self, phase: str, work: Any) -> Any:
+        begin = time.monotonic()
+        result = work()
+        self._seconds[phase] = self._spent(phase) + time.monotonic() - begin
+        return result
+
+    def _spent(self, phase: str) -> float:
+        return self._seconds.get(phase, 0.0)
+
+    def _log(self, event: str, quiet: bool = False, **values: Any) -> None:
+        with (self._directory / LOG_FILE).open("a", encoding="utf-8") as file:
+            file.write(json.dumps({"event": event, **values}) + "\n")
+
+    # --- What is kept
+
+    def _prepare_directory(self, resume: bool) -> None:
+        self._directory.mkdir(parents=True, exist_ok=True)
+        state = self._directory / STATE_FILE
+        if resume and state.exists():
+            self._restore(state)
+            return
+        if state.exists():
+            raise CheckpointError(f"{state}: a run is there already; --resume goes on with it")
+        (self._directory / LOG_FILE).unlink(missing_ok=True)
+        text = yaml.safe_dump(to_dict(self._params), sort_keys=False)
+        header = f"# Written by the training; commit {source_commit()}.\n"
+        (self._directory / CONFIG_FILE).write_text(header + text, encoding="utf-8")
+
+    def _save(self, memory: ReplayMemory) -> None:
+        self._save_network(LAST_FILE, {})
+        memory_state = memory.state()
+        memory_state["arrays"] = [torch.from_numpy(array) for array in memory_state["arrays"]]
+        if memory_state["priorities"] is not None:
+            memory_state["priorities"] = torch.from_numpy(memory_state["priorities"])
+        document = {
+            "params": to_dict(self._params),
+            "learner": self._learner.state(),
+            "memory": memory_state,
+            "random": self._random.bit_generator.state,
+            "episodes": self._episodes,
+            "next_case": self._next_case,
+            "best": list(self._best),
+            "seconds": dict(self._seconds),
+        }
+        save_atomically(self._directory / STATE_FILE, document)
+
+    def _restore(self, path: Path) -> None:
+        try:
+            state = torch.load(path, map_location="cpu", weights_only=True)
+        except Exception as error:
+            raise CheckpointError(f"{path}: cannot be read ({' '.join(str(error).split())[:120]})") from error
+        unlike = differences(state["params"], to_dict(self._params))
+        if unlike:
+            raise CheckpointError(f"{path}: begun with other parameters: {'; '.join(unlike)}")
+        self._learner.restore(state["learner"])
+        self._random.bit_generator.state = state["random"]
+        self._episodes, self._next_case = state["episodes"], state["next_case"]
+        self._best = (state["best"][0], state["best"][1])
+        self._seconds = state["seconds"]
+        memory = state["memory"]
+        memory["arrays"] = [array.numpy() for array in memory["arrays"]]
+        self._restored = {"memory": memory}
+        _keep_log_until(self._directory / LOG_FILE, self._episodes)
+
+    def _save_network(self, name: str, validation: Dict[str, float]) -> None:
+        origin = {
+            "configuration": to_dict(self._params),
+            "commit": source_commit(),
+            "seed": self._params.seed,
+            "episodes": self._episodes,
+            "updates": self._learner.updates,
+            "seconds": dict(self._seconds),
+            "validation": dict(validation),
+        }
+        save_checkpoint(self._directory / name, Checkpoint(self._network, self._contract, origin))
+
+
+def _passed(before: int, now: int, every: int) -> bool:
+    return now // every > before // every
+
+
+def _keep_log_until(path: Path, episodes: int) -> None:
+    """Drops what was logged after the checkpoint: those episodes come again."""
+    if not path.exists():
+        return
+    kept: List[str] = []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        entry = json.loads(line)
+        if entry.get("number", entry.get("episodes", 0)) > episodes:
+            break
+        kept.append(line)
+    path.write_text("".join(line + "\n" for line in kept), encoding="utf-8")
+
+
+class _NoEvents:
+    def add_scalar(self, name: str, value: float, step: int) -> None:
+        """Nothing: TensorBoard is not installed."""
+
+    def __enter__(self) -> _NoEvents:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Nothing to close."""
+
+
+def _event_writer(directory: Path) -> Any:
+    try:
+        from torch.utils.tensorboard import SummaryWriter
+    except ImportError:
+        return _NoEvents()
+    return SummaryWriter(str(directory))
+
+
+__all__ = ["DivergedError", "Trainer"]
