@@ -114,8 +114,7 @@ FollowCommand TimedPathFollower::follow(const sarn::Pose2D& pose, const sarn::Tw
   const sarn::Pose2D pose_then = sarn::advance(pose, last_command_, params_.look_ahead);
   const sarn::Pose2D error = trackingError(pose_then, reference.pose());
   const double span = params_.max_position_error - params_.slow_down_error;
-  const double share =
-      std::clamp((params_.max_position_error - std::hypot(error.x, error.y)) / span, 0.0, 1.0);
+  const double share = std::clamp((params_.max_position_error - std::abs(error.y)) / span, 0.0, 1.0);
   const sarn::Twist2D feed_forward =
       moving ? sarn::Twist2D{share * reference.v, share * reference.omega} : sarn::Twist2D{};
   const sarn::Twist2D wanted =

@@ -21,16 +21,14 @@ struct FollowerParams {
   // Feedback law: see tracking_law.h. Stable for any positive gains.
   double gain_along = 1.0;    // [1/s] k_x of the longitudinal error
   double gain_across = 10.0;  // [1/m^2] k_y of the lateral error
-  double gain_heading =
-      5.0;  // [1/m] k_theta of the heading error while driving; near 2 sqrt(k_y): critically damped
+  double gain_heading = 5.0;  // [1/m] k_theta of the heading error; near 2 sqrt(k_y): critically damped
   double gain_turning = 1.5;  // [1/s] k_t of the heading error at any speed
   double look_ahead = 0.1;    // [s] delay between command and motion that is led by
 
   // Errors, from the reference pose to the robot.
   double max_position_error = 0.35;  // [m] more: kDeviated
   double max_heading_error = 0.8;    // [rad] more: kDeviated
-  double slow_down_error =
-      0.1;  // [m] from here on the feed-forward is reduced, down to none at max_position_error
+  double slow_down_error = 0.15;  // [m] lateral; more reduces the feed-forward, to none at max_position_error
 
   // Goal.
   double xy_goal_tolerance = 0.15;  // [m]
