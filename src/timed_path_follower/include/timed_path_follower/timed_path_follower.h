@@ -33,7 +33,10 @@ struct FollowCommand {
 /// with limits on speed and acceleration.
 ///
 /// The reference is led by `look_ahead` and compared with the robot's pose extrapolated by the same time, so
-/// that a delay between command and motion does not turn into a lag.
+/// that a delay between command and motion does not turn into a lag. The further the robot is beside its way,
+/// the slower the feed-forward. A reference that has left it behind by more than max_position_error is not
+/// chased: kDeviated. After the trajectory's end the robot settles at its last pose; then it is kGoalReached
+/// or kExpired.
 class TimedPathFollower {
  public:
   /// True when a robot at this pose (in the trajectory's frame) would touch something.
