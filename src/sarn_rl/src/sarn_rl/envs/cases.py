@@ -128,7 +128,9 @@ class _CaseMaker:
             angle, noise_x, noise_y = self._random.random_sample(3)
             x = radius * math.cos(angle * math.pi * 2.0) + (noise_x - 0.5) * speed
             y = radius * math.sin(angle * math.pi * 2.0) + (noise_y - 0.5) * speed
-            if self._is_clear(x, y, self._starts) and self._is_clear(x, y, self._goals):
+            clear = self._is_clear(x, y, self._starts) and self._is_clear(x, y, self._goals)
+            # Follows from the line above when everybody crosses the circle, but not in a mixture.
+            if clear and self._is_clear(-x, -y, self._goals):
                 break
         self._starts.append((x, y))
         self._goals.append((-x, -y))

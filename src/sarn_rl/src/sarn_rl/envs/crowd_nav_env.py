@@ -70,7 +70,7 @@ class CrowdNavEnv(gymnasium.Env):
             {
                 "robot": spaces.Box(-np.inf, np.inf, (features,), np.float32),
                 "people": spaces.Box(-np.inf, np.inf, (people, 7), np.float32),
-                "present": spaces.MultiBinary(people),
+                "present": spaces.Box(0, 1, (people,), np.int8),
             }
         )
         self._begin(0)

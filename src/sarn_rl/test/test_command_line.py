@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: BSD-3-Clause
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+from PIL import Image
+
+from sarn_rl.checkpoint import Checkpoint, golden_states, load_checkpoint, save_checkpoint
+from sarn_rl.cli.main import main
+from sarn_rl.contract import Contract
+from sarn_rl.networks.factory import make_network
+from sarn_rl.networks.params import NetworkParams
+
+SOURCES = Path(__file__).resolve().parents[1] / "src"
+
+
+@pytest.fixture
+def checkpoint(tmp_path: Path) -> Path:
+    torch.manual_seed(4)
+    path = tmp_path / "sarl.pt"
+    contract = Contract()
+    save_checkpoint(path, Checkpoint(make_network(contract.network, 5, 0.9), contract, {"seed": 4}))
+    return path
+
+
+def test_help_shows_examples(capsys: pytest.CaptureFixture) -> None:
+    for command in ([], ["train"], ["evaluate"], ["table"], ["curves"], ["watch"], ["export"]):
+        with pytest.raises(SystemExit) as caught:
+            main([*command, "--help"])
+        assert caught.value.code == 0
+    text = capsys.readouterr().out
+    assert "python -m sarn_rl evaluate --policy orca" in text
+
+
+def test_evaluate_writes_a_row(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    out = tmp_path / "orca.json"
+    assert main(["evaluate", "--policy", "orca", "--count", "20", "--visible", "--json", str(out)]) == 0
+    row = json.loads(out.read_text())
+    assert row == json.loads(capsys.readouterr().out)
+    assert (row["policy"], row["humans"], row["visible"], row["cases"]) == ("orca", 5, True, 20)
+    assert row["success"] == 1.0 and row["lookahead"] == "none"
+
+
+def test_evaluate_says_whether_the_policy_peeked(checkpoint: Path, capsys: pytest.CaptureFixture) -> None:
+    arguments = [
+        "evaluate",
+        "--policy",
+        "sarl",
+        "--checkpoint",
+        str(checkpoint),
+        "--count",
+        "2",
+        "--humans",
+        "2",
+    ]
+    for extra, name in ([], "constant_velocity"), (["--peek"], "peek"):
+        assert main([*arguments, *extra]) == 0
+        assert json.loads(capsys.readouterr().out)["lookahead"] == name
+
+
+def test_table_has_the_papers_figures(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    torch.manual_seed(4)
+    contract = Contract(network=NetworkParams("cadrl"))
+    save_checkpoint(
+        tmp_path / "cadrl.pt", Checkpoint(make_network(contract.network, 5, 0.9), contract, {"seed": 2})
+    )
+    out = tmp_path / "build" / "table.json"
+    assert main(["table", "--models", str(tmp_path), "--count", "2", "--out", str(out)]) == 0
+    rows = json.loads(out.read_text())
+    assert {"orca", "social_force", "cadrl"} == {row["policy"] for row in rows}
+    assert [row["humans"] for row in rows if row["policy"] == "cadrl"] == [5, 10, 20]
+    needed = "policy humans visible crowd kinematics lookahead seed cases success collision timeout time_s discomfort"
+    assert all(set(needed.split()) <= set(row) for row in rows)
+    assert "0.99 / 0.054 / 10.78" in capsys.readouterr().out
+
+
+def test_watch_draws_paths_and_a_video(tmp_path: Path) -> None:
+    for name in ("case.png", "case.gif"):
+        out = tmp_path / name
+        assert main(["watch", "--policy", "orca", "--case", "3", "--out", str(out)]) == 0
+        picture = Image.open(out)
+        assert np.ptp(np.asarray(picture.convert("L"))) > 50
+    assert picture.n_frames > 20
+
+
+def test_curves_are_drawn_from_logs(tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    run.mkdir()
+    lines = [
+        {
+            "event": "episode",
+            "number": n,
+            "outcome": "success",
+            "time_s": 10.0 + n,
+            "discounted_return": 0.1 * n,
+        }
+        for n in range(1, 6)
+    ] + [{"event": "validation", "episodes": 5, "success": 0.5}]
+    (run / "log.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
+    assert main(["curves", f"per={run}", "--out", str(tmp_path / "curves.png")]) == 0
+    assert Image.open(tmp_path / "curves.png").size == (700, 800)
+    assert main(["curves", f"per={tmp_path / 'none'}", "--out", str(tmp_path / "c.png")]) == 1
+
+
+def test_exported_network_computes_the_same(tmp_path: Path, checkpoint: Path) -> None:
+    out = tmp_path / "sarl.torchscript"
+    assert main(["export", "--checkpoint", str(checkpoint), "--out", str(out)]) == 0
+    loaded = load_checkpoint(checkpoint)
+    exported = torch.jit.load(str(out))
+    seen = loaded.contract.make_lookahead().encode(golden_states(loaded.contract))
+    for worlds, people in ((8, 6), (3, 6), (1, 2)):
+        arrays = (seen.robot[-worlds:], seen.people[-worlds:, :people], seen.present[-worlds:, :people])
+        arguments = [torch.from_numpy(np.ascontiguousarray(array)) for array in arrays]
+        with torch.no_grad():
+            assert exported(*arguments).numpy() == pytest.approx(loaded.network(*arguments).numpy(), abs=1e-6)
+    assert json.loads((tmp_path / "sarl.torchscript.json").read_text())["frame"].startswith(
+        "centre of the robot"
+    )
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (["evaluate", "--policy", "sarl"], "--checkpoint: sarl needs one"),
+        (["evaluate", "--policy", "orca", "--checkpoint", "x.pt"], "--checkpoint: orca does not learn"),
+        (["evaluate", "--policy", "sarl", "--checkpoint", "no.pt"], "no.pt: there is no such file"),
+        (["evaluate", "--policy", "orca", "--humans", "-1"], "cases.people: -1 is not in"),
+        (["evaluate", "--policy", "orca", "--count", "501"], "cases: test has no case 500"),
+        (["evaluate", "--policy", "orca", "--safety-space", "nan"], "--safety-space: nan m is not in"),
+        (["watch", "--policy", "orca", "--out", "x.mp3"], "--out: x.mp3 ends neither"),
+        (["watch", "--policy", "orca", "--case", "500", "--out", "x.png"], "cases: test has no case 500"),
+        (["train", "--config", "no.yaml", "--out", "x"], "no.yaml: cannot be read"),
+        (["curves", "noname", "--out", "x.png"], "runs: 'noname' is not NAME=DIR"),
+    ],
+)
+def test_bad_input_is_one_line_and_an_exit_code(
+    arguments: list, message: str, capsys: pytest.CaptureFixture
+) -> None:
+    assert main(arguments) == 1
+    error = capsys.readouterr().err
+    assert error.startswith("sarn_rl: ") and message in error and error.count("\n") == 1
+
+
+def test_policy_of_another_kind_is_refused(checkpoint: Path, capsys: pytest.CaptureFixture) -> None:
+    assert main(["evaluate", "--policy", "cadrl", "--checkpoint", str(checkpoint)]) == 1
+    assert "contract differs: network.kind: 'sarl' is not 'cadrl'" in capsys.readouterr().err
+
+
+def imported_by(statement: str) -> set:
+    script = f"import sys; {statement}; print(' '.join(sys.modules))"
+    path = os.pathsep.join([str(SOURCES), *sys.path])
+    result = subprocess.run(
+        [sys.executable, "-c", script],
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return set(result.stdout.split())
+
+
+def test_inference_imports_no_training_code() -> None:
+    modules = imported_by("import sarn_rl.checkpoint, sarn_rl.policies.crowd_models")
+    assert "sarn_rl.policies.value_policy" in modules
+    forbidden = (
+        "sarn_rl.training",
+        "sarn_rl.envs",
+        "sarn_rl.cli",
+        "gymnasium",
+        "tensorboard",
+        "matplotlib",
+        "rospy",
+    )
+    assert not [name for name in modules if name.startswith(forbidden)]
+
+
+def test_everything_but_the_node_imports_without_ros() -> None:
+    modules = imported_by("import sarn_rl.cli.main as m; m.make_parser(); import sarn_rl.envs.crowd_nav_env")
+    assert "sarn_rl.training.trainer" in modules
+    assert not [name for name in modules if name.split(".")[0] in ("rospy", "roslib", "tf2_ros", "genpy")]

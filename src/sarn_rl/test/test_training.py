@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: BSD-3-Clause
+from __future__ import annotations
+
+import dataclasses
+import io
+import json
+from pathlib import Path
+from typing import Any, Dict, List
+
+import numpy as np
+import pytest
+import torch
+
+from sarn_rl.actions import ActionParams, Kinematics
+from sarn_rl.checkpoint import CheckpointError, load_checkpoint
+from sarn_rl.declared import ParameterError, to_dict
+from sarn_rl.envs.cases import CaseParams
+from sarn_rl.envs.params import EnvironmentParams
+from sarn_rl.networks.params import NetworkParams
+from sarn_rl.training import trainer as trainer_module
+from sarn_rl.training.learner import DivergedError, Learner
+from sarn_rl.training.params import (
+    ImitationParams,
+    LearningParams,
+    ReplayParams,
+    TrainingParams,
+    load_params,
+)
+from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, LOG_FILE, STATE_FILE, Trainer
+
+CONFIGS = sorted((Path(__file__).resolve().parents[1] / "config").glob("*.yaml"))
+
+
+@pytest.fixture(autouse=True)
+def few_validation_cases(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(trainer_module.SPLIT_SIZES, "validation", 20)
+
+
+def tiny(**changes: Any) -> TrainingParams:
+    """A few seconds of training: one person, a small action set."""
+    return dataclasses.replace(
+        TrainingParams(
+            seed=3,
+            actions=ActionParams(speeds=2, headings=8),
+            network=NetworkParams("cadrl"),
+            environment=EnvironmentParams(cases=CaseParams(people=1), time_limit=15.0),
+            imitation=ImitationParams(episodes=20, epochs=2, batch_size=64),
+            replay=ReplayParams(capacity=3000),
+            learning=LearningParams(
+                episodes=24,
+                worlds=4,
+                updates_per_step=1,
+                batch_size=16,
+                target_update_steps=20,
+                validation_episodes=12,
+                checkpoint_episodes=12,
+                epsilon_episodes=24,
+            ),
+        ),
+        **changes,
+    )
+
+
+def trained(params: TrainingParams, directory: Path, resume: bool = False) -> Dict[str, float]:
+    return Trainer(params, directory, resume, io.StringIO()).run()
+
+
+def events(directory: Path, kind: str) -> List[Dict[str, Any]]:
+    lines = (directory / LOG_FILE).read_text(encoding="utf-8").splitlines()
+    return [entry for entry in map(json.loads, lines) if entry["event"] == kind]
+
+
+def weights(path: Path) -> Dict[str, torch.Tensor]:
+    return load_checkpoint(path).network.state_dict()
+
+
+def same(one: Dict[str, torch.Tensor], other: Dict[str, torch.Tensor]) -> bool:
+    return all(torch.equal(one[key], other[key]) for key in one)
+
+
+def test_training_learns_what_imitation_left(tmp_path: Path) -> None:
+    """Two people, SARL: from an untrained network's failures to arriving, by reinforcement alone."""
+    params = TrainingParams(
+        seed=1,
+        actions=ActionParams(speeds=2, headings=8),
+        environment=EnvironmentParams(cases=CaseParams(people=2)),
+        imitation=ImitationParams(episodes=60, epochs=12, batch_size=64, learning_rate=0.003),
+        learning=LearningParams(
+            episodes=150,
+            worlds=16,
+            updates_per_step=4,
+            batch_size=64,
+            epsilon_start=0.3,
+            epsilon_end=0.1,
+            epsilon_episodes=100,
+            return_steps=4,
+            target_update_steps=50,
+            validation_episodes=75,
+            checkpoint_episodes=1000,
+        ),
+    )
+    untrained = dataclasses.replace(
+        params,
+        imitation=dataclasses.replace(params.imitation, epochs=0),
+        learning=dataclasses.replace(params.learning, episodes=0),
+    )
+    before = trained(untrained, tmp_path / "untrained")
+    after = trained(params, tmp_path / "run")
+    losses = [entry["loss"] for entry in events(tmp_path / "run", "imitation")]
+    assert losses[-1] < 0.5 * losses[0]
+    assert before["success"] <= 0.5
+    assert after["success"] >= 0.8
+    assert after["mean_return"] > before["mean_return"] + 0.2
+
+
+@pytest.mark.parametrize("prioritised", [True, False])
+def test_same_seed_gives_the_same_weights(tmp_path: Path, prioritised: bool) -> None:
+    params = tiny(replay=ReplayParams(capacity=3000, prioritised=prioritised))
+    trained(params, tmp_path / "one")
+    trained(params, tmp_path / "same")
+    trained(dataclasses.replace(params, seed=4), tmp_path / "other")
+    one = weights(tmp_path / "one" / LAST_FILE)
+    assert same(one, weights(tmp_path / "same" / LAST_FILE))
+    assert not same(one, weights(tmp_path / "other" / LAST_FILE))
+
+
+@pytest.mark.parametrize("kinematics", [Kinematics.UNICYCLE, Kinematics.TURTLEBOT])
+def test_robots_that_turn_train_too(tmp_path: Path, kinematics: Kinematics) -> None:
+    actions = ActionParams(kinematics=kinematics, speeds=2, headings=5)
+    trained(tiny(actions=actions), tmp_path)
+    assert load_checkpoint(tmp_path / LAST_FILE).contract.actions.kinematics is kinematics
+
+
+class Killed(BaseException):
+    pass
+
+
+def test_killed_run_goes_on_from_its_checkpoint(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    original = Trainer._count
+
+    def count_and_die(self: Trainer, episode: Any) -> None:
+        original(self, episode)
+        if self._episodes == 20:
+            raise Killed
+
+    monkeypatch.setattr(Trainer, "_count", count_and_die)
+    with pytest.raises(Killed):
+        trained(tiny(), tmp_path)
+    monkeypatch.setattr(Trainer, "_count", original)
+    kept = torch.load(tmp_path / STATE_FILE, weights_only=True)["episodes"]
+    assert 12 <= kept < 20
+    with pytest.raises(CheckpointError, match="--resume"):
+        trained(tiny(), tmp_path)
+    trained(tiny(), tmp_path, resume=True)
+    numbers = [entry["number"] for entry in events(tmp_path, "episode")]
+    assert numbers == list(range(1, len(numbers) + 1)) and len(numbers) >= 24
+    assert load_checkpoint(tmp_path / LAST_FILE).origin["episodes"] == len(numbers)
+
+
+def test_resuming_with_other_parameters_is_refused(tmp_path: Path) -> None:
+    trained(tiny(), tmp_path)
+    with pytest.raises(CheckpointError, match="gamma: 0.9 is not 0.8"):
+        trained(tiny(gamma=0.8), tmp_path, resume=True)
+
+
+def test_nan_stops_and_keeps_the_last_good_checkpoint(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    original = Learner.update
+
+    def poisoned(self: Learner, *arguments: Any) -> float:
+        if self.updates == 250:
+            with torch.no_grad():
+                next(self.network.parameters()).mul_(float("nan"))
+        return original(self, *arguments)
+
+    monkeypatch.setattr(Learner, "update", poisoned)
+    params = tiny(learning=dataclasses.replace(tiny().learning, episodes=200, checkpoint_episodes=4))
+    with pytest.raises(DivergedError, match="not finite after 250 updates"):
+        trained(params, tmp_path)
+    assert all(bool(torch.isfinite(value).all()) for value in weights(tmp_path / LAST_FILE).values())
+    assert np.isfinite(load_checkpoint(tmp_path / BEST_FILE).origin["validation"]["mean_return"])
+
+
+@pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.name)
+def test_shipped_configuration_has_every_key_and_no_problem(path: Path) -> None:
+    import yaml
+
+    document = yaml.safe_load(path.read_text(encoding="utf-8"))
+    assert to_dict(load_params(path)) == document
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("lerning: {episodes: 3}", "lerning: unknown key"),
+        ("learning: {episodes: 3, worlds: 0}", "learning.worlds: 0 is not > 0"),
+        ("learning: {episodes: many}", "learning.episodes: expected int, got 'many'"),
+        ("environment: {cases: {people: -1}}", "environment.cases.people: -1 is not in"),
+        ("actions: {kinematics: flying}", "actions.kinematics: 'flying' is none of holonomic"),
+        ("gamma: .nan", "gamma: expected float"),
+        ("gamma: 2.0", "gamma: 2.0 is not in (0, 1)"),
+        ("network: [1, 2]", "network: expected keys and values"),
+        ("a: [", "not YAML"),
+    ],
+)
+def test_bad_configuration_is_named(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "bad.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ParameterError) as caught:
+        load_params(path)
+    assert message in str(caught.value) and str(path) in str(caught.value)
+
+
+def test_missing_configuration_is_named(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="none.yaml: cannot be read"):
+        load_params(tmp_path / "none.yaml")
+
+
+def test_all_problems_are_told_at_once(tmp_path: Path) -> None:
+    path = tmp_path / "bad.yaml"
+    path.write_text("replay: {alpha: 2.0}\nlearning: {worlds: 0, epsilon_end: -1.0}\n", encoding="utf-8")
+    with pytest.raises(ParameterError) as caught:
+        load_params(path)
+    assert len(str(caught.value).splitlines()) == 3
