@@ -149,7 +149,7 @@ void Crowd::addPerson(const PersonSpec& spec, std::uint64_t seed) {
   const auto i = static_cast<std::size_t>(appendState(spec, spec.name));
   PersonState& person = people_[i];
   Mover& mover = movers_[i];
-  if (spec.model != PersonModel::kStanding) person.position = placeable(spec, spec.position, "position");
+  person.position = placeable(spec, spec.position, "position");
   mover.start = person.position;
   mover.start_heading = person.heading;
   mover.start_time = spec.start_time;
