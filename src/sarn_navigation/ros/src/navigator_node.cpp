@@ -2,7 +2,6 @@
 #include "sarn_navigation_ros/navigator_node.h"
 
 #include <geometry_msgs/Twist.h>
-#include <std_msgs/Time.h>
 #include <tf2/exceptions.h>
 
 #include <cmath>
@@ -17,9 +16,11 @@ namespace sarn_navigation {
 namespace {
 
 constexpr std::size_t kMaxPendingScans = 10;
-constexpr double kClockJump = 0.5;     // [s] back
-constexpr double kStatusPeriod = 0.1;  // [s]
-constexpr int kFinalZeros = 10;        // commands
+constexpr double kClockJump = 0.5;          // [s] back
+constexpr double kStatusPeriod = 0.1;       // [s]
+constexpr int kFinalZeros = 10;             // commands
+constexpr double kFreshPose = 0.04;         // [s] age of a pose that is as new as 50 Hz odometry makes it
+constexpr double kTransformPatience = 0.1;  // [s] wall time
 
 /// A snapshot with the view the planner reads.
 struct Scene {
@@ -53,10 +54,10 @@ NavigatorNode::NavigatorNode(const ros::NodeHandle& nh, const ros::NodeHandle& p
       tf_listener_(tf_buffer_),
       costmap_(config_.costmap),
       navigator_(config_.navigator, config_.follower, makePlanFunction(config_.planner)),
-      display_(private_nh_, config_.node.global_frame, config_.node.visualization_frequency) {
+      display_(private_nh_, config_.node.global_frame, config_.node.visualization_frequency),
+      lockstep_(nh_, topics::kLockstep) {
   command_ = nh_.advertise<geometry_msgs::Twist>(topics::kCommand, 10);
   status_ = nh_.advertise<sarn_msgs::NavigationStatus>(topics::kStatus, 10);
-  lockstep_ = nh_.advertise<std_msgs::Time>(topics::kLockstep, 10);
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   map_subscriber_ = nh_.subscribe(topics::kMap, 1, &NavigatorNode::onMap, this);
   odometry_subscriber_ = nh_.subscribe(topics::kOdometry, 10, &NavigatorNode::onOdometry, this, no_delay);
@@ -232,6 +233,7 @@ void NavigatorNode::onControl() {
   const ros::Time stamp = ros::Time::now();
   const double now = stamp.toSec();
   guardClock(now);
+  if (config_.node.lockstep) waitForTransforms(stamp);
   if (const auto input = makeInput(now)) {
     send(navigator_.step(*input));
     report(*input);
@@ -239,7 +241,7 @@ void NavigatorNode::onControl() {
     command_.publish(geometry_msgs::Twist());  // a robot in doubt stands still
   }
   if (config_.node.lockstep) navigator_.waitForPlanDue(now);
-  acknowledge(now);
+  lockstep_.acknowledge(stamp);
 }
 
 void NavigatorNode::send(const sarn::Twist2D& command) {
@@ -272,10 +274,14 @@ void NavigatorNode::report(const NavigatorInput& input) {
   display_.showCosts(*snapshot_, config_.costmap.social_layers);
 }
 
-void NavigatorNode::acknowledge(double now) {
-  std_msgs::Time message;
-  message.data = ros::Time(now);
-  lockstep_.publish(message);
+/// In a simulation faster than real time the transforms of the present may still be on their way.
+void NavigatorNode::waitForTransforms(const ros::Time& now) {
+  const ros::Time wanted = now - ros::Duration(kFreshPose);
+  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(kTransformPatience);
+  while (ros::WallTime::now() < give_up &&
+         !tf_buffer_.canTransform(config_.node.global_frame, config_.node.robot_base_frame, wanted)) {
+    ros::WallDuration(0.0005).sleep();
+  }
 }
 
 }  // namespace sarn_navigation

@@ -4,7 +4,6 @@
 #include <ros/console.h>
 #include <ros/names.h>
 #include <sensor_msgs/LaserScan.h>
-#include <std_msgs/Time.h>
 
 #include "sarn_common_ros/parameter_reader.h"
 #include "sarn_perception_ros/conversions.h"
@@ -47,10 +46,10 @@ DepthToScanNode::DepthToScanNode(const ros::NodeHandle& nh, const ros::NodeHandl
     : nh_(nh),
       converter_(sarn::readParameters<DepthToScanParams>(private_nh)),
       pairs_(image_, info_, kQueueSize),
+      lockstep_(nh_, kDepthLockstepTopic),
       reconfigure_server_(private_nh) {
   image_.registerCallback(&DepthToScanNode::countUnpaired, this);
   pairs_.registerCallback(&DepthToScanNode::convert, this);
-  lockstep_publisher_ = nh_.advertise<std_msgs::Time>(kDepthLockstepTopic, kQueueSize);
   // A listener may connect before advertise returns.
   const std::lock_guard<std::mutex> lock(connect_mutex_);
   const ros::SubscriberStatusCallback follow = [this](const ros::SingleSubscriberPublisher&) {
@@ -94,9 +93,7 @@ void DepthToScanNode::convert(const sensor_msgs::ImageConstPtr& image,
   } catch (const DepthInputError& error) {
     ROS_ERROR_STREAM_THROTTLE(1.0, image_.getTopic() << ": " << error.what());
   }
-  std_msgs::Time done;
-  done.data = image->header.stamp;
-  lockstep_publisher_.publish(done);
+  lockstep_.acknowledge(image->header.stamp);
 }
 
 void DepthToScanNode::reconfigure(DepthToScanConfig& config, std::uint32_t /*level*/) {

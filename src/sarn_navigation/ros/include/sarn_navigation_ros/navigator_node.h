@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 
+#include "sarn_common_ros/lockstep_acknowledger.h"
 #include "sarn_navigation/navigator.h"
 #include "sarn_navigation_ros/goal_server.h"
 #include "sarn_navigation_ros/line_throttle.h"
@@ -49,7 +50,7 @@ class NavigatorNode {
   [[nodiscard]] std::optional<NavigatorInput> makeInput(double now);
   void send(const sarn::Twist2D& command);
   void report(const NavigatorInput& input);
-  void acknowledge(double now);
+  void waitForTransforms(const ros::Time& now);
   void say(LineThrottle& line, const std::string& text);
 
   ros::NodeHandle nh_;
@@ -60,6 +61,7 @@ class NavigatorNode {
   social_costmap::TimedCostmap costmap_;
   Navigator navigator_;
   NavigatorDisplay display_;
+  sarn::LockstepAcknowledger lockstep_;
 
   mutable std::mutex scene_mutex_;
   std::shared_ptr<const sarn::TimedCostmapView> scene_;
@@ -79,7 +81,6 @@ class NavigatorNode {
 
   ros::Publisher command_;
   ros::Publisher status_;
-  ros::Publisher lockstep_;
   ros::Subscriber map_subscriber_;
   ros::Subscriber odometry_subscriber_;
   ros::Subscriber scan_subscriber_;

@@ -10,6 +10,7 @@
 
 #include <mutex>
 
+#include "sarn_common_ros/lockstep_acknowledger.h"
 #include "sarn_perception/DepthToScanConfig.h"
 #include "sarn_perception/depth_to_scan.h"
 
@@ -36,7 +37,7 @@ class DepthToScanNode {
   message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::CameraInfo> pairs_;
   int unpaired_ = 0;  // images since the last pair
   ros::Publisher scan_publisher_;
-  ros::Publisher lockstep_publisher_;
+  sarn::LockstepAcknowledger lockstep_;
   dynamic_reconfigure::Server<DepthToScanConfig> reconfigure_server_;
 };
 
