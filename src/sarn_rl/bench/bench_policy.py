@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Times decisions and gradient steps on one thread; one JSON object a line: {"name": ..., "value": ...}."""
+
+from __future__ import annotations
+
+import json
+import time
+from typing import Callable
+
+import numpy as np
+import torch
+
+from sarn_rl.contract import Contract
+from sarn_rl.joint_state import JointState
+from sarn_rl.networks.factory import make_network
+from sarn_rl.observation import Observation
+from sarn_rl.policies.value_policy import ValuePolicy
+from sarn_rl.training.learner import Learner
+from sarn_rl.training.params import LearningParams, ReplayParams
+from sarn_rl.training.replay import ReplayMemory
+from sarn_rl.training.transitions import Transitions
+
+
+def crowd(people: int, worlds: int = 1) -> JointState:
+    """Random worlds, everybody within 4 m."""
+    random = np.random.default_rng(people)
+    robots = np.tile([0.0, -4.0, 0.0, 0.5, 0.3, 0.0, 4.0, 1.0, 1.57], (worlds, 1))
+    rows = np.full((worlds, people, 5), 0.3)
+    rows[..., :4] = random.uniform(-4.0, 4.0, (worlds, people, 4)) * [1.0, 1.0, 0.25, 0.25]
+    return JointState(robots, rows, np.ones((worlds, people), dtype=bool))
+
+
+def median_seconds(work: Callable[[], object], repetitions: int) -> float:
+    for _ in range(5):
+        work()
+    times = []
+    for _ in range(repetitions):
+        begin = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - begin)
+    return float(np.median(times))
+
+
+def filled_memory(params: LearningParams) -> ReplayMemory:
+    worlds = 4096
+    seen: Observation = Contract().make_lookahead().encode(crowd(5, worlds))
+    numbers = np.full(worlds, 0.9, dtype=np.float32)
+    batch = Transitions(*seen, seen.robot, seen.people, numbers, numbers)
+    memory = ReplayMemory(ReplayParams(capacity=100_000), batch)
+    for _ in range(100_000 // worlds):
+        memory.add(batch)
+    return memory
+
+
+def main() -> None:
+    torch.set_num_threads(1)
+    torch.manual_seed(0)
+    contract = Contract()
+    network = make_network(contract.network, len(contract.robot_features), contract.gamma)
+    policy = ValuePolicy(network, contract.make_lookahead())
+    figures = {}
+    for people in (5, 20):
+        state = crowd(people)
+        figures[f"policy.decision_ms.{people}_humans"] = 1e3 * median_seconds(lambda: policy.act(state), 200)  # noqa: B023
+    params = LearningParams()
+    learner, memory, random = Learner(network, params), filled_memory(params), np.random.default_rng(0)
+    seconds = median_seconds(lambda: learner.update(memory, 0.5, random), 200)
+    figures["train.gradient_steps_per_s"] = 1.0 / seconds
+    for name, value in figures.items():
+        print(json.dumps({"name": name, "value": value}))
+
+
+if __name__ == "__main__":
+    main()
