@@ -12,7 +12,7 @@ JOBS ?= 2
 TORCH_INDEX ?=
 export JOBS TORCH_INDEX
 
-.PHONY: help setup build sim view test check bench clean distclean
+.PHONY: help setup build sim view test check bench train table clean distclean
 
 help:  ## Show this list
 	@printf 'SARN: a TurtleBot2 that drives among people.\n\nTargets:\n'
@@ -49,6 +49,12 @@ check:  ## Format, lint, types and layer rules
 
 bench:  ## Measure speed; writes build/bench.json
 	@tools/bench
+
+train:  ## Train all policies of the table from nothing (runs/train; SEEDS="1 2 3")
+	@tools/train
+
+table:  ## Evaluate baselines and shipped checkpoints: the paper's Table I beside ours (build/table.json)
+	@tools/table
 
 clean:  ## Remove what was built
 	@rm -rf build devel
