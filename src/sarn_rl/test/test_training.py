@@ -51,7 +51,7 @@ def tiny(**changes: Any) -> TrainingParams:
                 worlds=4,
                 updates_per_step=1,
                 batch_size=16,
-                target_update_steps=20,
+                target_rate=0.05,
                 validation_episodes=12,
                 checkpoint_episodes=12,
                 epsilon_episodes=24,
@@ -94,7 +94,7 @@ def test_training_learns_what_imitation_left(tmp_path: Path) -> None:
             epsilon_end=0.1,
             epsilon_episodes=100,
             return_steps=4,
-            target_update_steps=50,
+            target_rate=0.02,
             validation_episodes=75,
             checkpoint_episodes=1000,
         ),
@@ -223,3 +223,19 @@ def test_all_problems_are_told_at_once(tmp_path: Path) -> None:
     with pytest.raises(ParameterError) as caught:
         load_params(path)
     assert len(str(caught.value).splitlines()) == 3
+
+
+def test_target_network_is_the_running_mean_of_the_learned_one() -> None:
+    from sarn_rl.networks.factory import make_network
+
+    torch.manual_seed(0)
+    learner = Learner(make_network(NetworkParams("cadrl"), 5, 0.9), LearningParams(target_rate=0.25))
+    before = [value.clone() for value in learner.target.parameters()]
+    with torch.no_grad():
+        for value in learner.network.parameters():
+            value.add_(1.0)
+    learner._follow()
+    for old, new in zip(before, learner.target.parameters()):
+        assert torch.allclose(new, old + 0.25)
+    learner.refresh_target()
+    assert same(learner.network.state_dict(), learner.target.state_dict())

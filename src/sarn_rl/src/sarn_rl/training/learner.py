@@ -45,7 +45,8 @@ def set_learning_rate(optimizer: torch.optim.Optimizer, rate: float) -> None:
 class Learner:
     """Deep V-learning (Chen et al. 2019, algorithm 1): V(s) towards r + gamma V_target(s').
 
-    Targets are computed when they are used, never stored.
+    Targets are computed when they are used, never stored. The target network is the running mean of the
+    learned one; it is also the one that acts and is kept, because it changes its mind less.
     """
 
     def __init__(self, network: ValueNetwork, params: LearningParams) -> None:
@@ -84,10 +85,15 @@ class Learner:
             raise DivergedError(f"the gradient is not finite after {self.updates} updates")
         self._optimizer.step()
         self.updates += 1
-        if self.updates % self._params.target_update_steps == 0:
-            self.refresh_target()
+        self._follow()
+
+    def _follow(self) -> None:
+        with torch.no_grad():
+            for follower, leader in zip(self.target.parameters(), self.network.parameters()):
+                follower.lerp_(leader, self._params.target_rate)
 
     def refresh_target(self) -> None:
+        """Makes the target network equal to the learned one."""
         self.target.load_state_dict(self.network.state_dict())
 
     def state(self) -> Dict[str, Any]:

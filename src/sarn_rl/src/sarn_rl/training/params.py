@@ -96,7 +96,7 @@ class LearningParams:
         epsilon_episodes: see above.
         return_steps: n of n-step returns; they end before the next random action.
         learn_from_random_actions: whether a state that a random action left is learned from.
-        target_update_steps: gradient steps between copies to the target network.
+        target_rate: share of the way to the learned network that the target network goes in a step.
         mirror: whether half of the samples are seen in a mirror.
         gradient_clip: largest norm of a gradient.
         validation_episodes: episodes between validations (on the 100 validation cases).
@@ -115,7 +115,7 @@ class LearningParams:
     epsilon_episodes: int = 3000
     return_steps: int = 1
     learn_from_random_actions: bool = False
-    target_update_steps: int = 200
+    target_rate: float = 0.005
     mirror: bool = True
     gradient_clip: float = 1.0
     validation_episodes: int = 500
@@ -130,7 +130,7 @@ class LearningParams:
             "final_learning_rate",
             "epsilon_episodes",
             "return_steps",
-            "target_update_steps",
+            "target_rate",
             "gradient_clip",
             "validation_episodes",
             "checkpoint_episodes",
@@ -139,7 +139,7 @@ class LearningParams:
         for name in ("episodes", "updates_per_step", "warmup_episodes"):
             if getattr(self, name) < 0:
                 found.append(f"{name}: {getattr(self, name)} is not >= 0")
-        for name in ("epsilon_start", "epsilon_end"):
+        for name in ("epsilon_start", "epsilon_end", "target_rate"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 found.append(f"{name}: {getattr(self, name)} is not in 0..1")
         return tuple(found)

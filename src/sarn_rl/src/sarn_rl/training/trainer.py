@@ -59,8 +59,8 @@ class Trainer:
         torch.manual_seed(params.seed)
         self._random = np.random.default_rng(params.seed)
         self._network = make_network(params.network, len(self._contract.robot_features), params.gamma)
-        self._policy = ValuePolicy(self._network, self._lookahead)
         self._learner = Learner(self._network, params.learning)
+        self._policy = ValuePolicy(self._learner.target, self._lookahead)
         self._episodes = 0
         self._next_case = params.imitation.episodes
         self._best = (-1.0, -np.inf)
@@ -270,7 +270,7 @@ class Trainer:
             "seconds": dict(self._seconds),
             "validation": dict(validation),
         }
-        save_checkpoint(self._directory / name, Checkpoint(self._network, self._contract, origin))
+        save_checkpoint(self._directory / name, Checkpoint(self._learner.target, self._contract, origin))
 
 
 def _passed(before: int, now: int, every: int) -> bool:
