@@ -81,6 +81,14 @@ def test_table_has_the_papers_figures(tmp_path: Path, capsys: pytest.CaptureFixt
     assert "0.99 / 0.054 / 10.78" in capsys.readouterr().out
 
 
+def test_row_without_a_success_is_json(tmp_path: Path, checkpoint: Path) -> None:
+    out = tmp_path / "row.json"
+    arguments = ["--policy", "sarl", "--checkpoint", str(checkpoint), "--count", "1", "--json", str(out)]
+    assert main(["evaluate", *arguments]) == 0
+    row = json.loads(out.read_text(), parse_constant=pytest.fail)
+    assert row["success"] == 0.0 and row["time_s"] is None
+
+
 def test_watch_draws_paths_and_a_video(tmp_path: Path) -> None:
     for name in ("case.png", "case.gif"):
         out = tmp_path / name

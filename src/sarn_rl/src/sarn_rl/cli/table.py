@@ -94,7 +94,7 @@ def format_table(rows: List[Dict[str, Any]]) -> str:
                 str(row["humans"]),
                 "" if row["seed"] < 0 else str(row["seed"]),
                 *(f"{row[key]:.3f}" for key in ("success", "collision", "timeout")),
-                f"{row['time_s']:.2f}",
+                "" if row["time_s"] is None else f"{row['time_s']:.2f}",
                 f"{row['discomfort']:.3f}",
                 "{:.2f} / {:.3f} / {:.2f}".format(*theirs) if theirs else "",
             )

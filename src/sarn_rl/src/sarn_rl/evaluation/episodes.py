@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, Sequence
+from typing import Any, Dict, Sequence
 
 import numpy as np
 
@@ -35,8 +35,8 @@ class Episodes:
     min_separations: np.ndarray
     returns: np.ndarray
 
-    def summary(self) -> Dict[str, float]:
-        """Rates, the mean time of successes [s] (nan without any), and the discomfort frequency.
+    def summary(self) -> Dict[str, Any]:
+        """Rates, the mean time of successes [s] (None without any), and the discomfort frequency.
 
         The discomfort frequency is the share of all steps that were uncomfortable.
         """
@@ -46,7 +46,7 @@ class Episodes:
             "success": float(success.mean()),
             "collision": float((self.outcomes == Outcome.COLLISION).mean()),
             "timeout": float((self.outcomes == Outcome.TIMEOUT).mean()),
-            "time_s": float(self.times[success].mean()) if success.any() else float("nan"),
+            "time_s": float(self.times[success].mean()) if success.any() else None,
             "discomfort": float(self.discomfort_steps.sum() / max(1, self.steps.sum())),
             "mean_return": float(self.returns.mean()),
         }

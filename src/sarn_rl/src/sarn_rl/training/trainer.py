@@ -69,7 +69,7 @@ class Trainer:
         self._restored: Dict[str, Any] = {}
         self._prepare_directory(resume)
 
-    def run(self) -> Dict[str, float]:
+    def run(self) -> Dict[str, Any]:
         """Trains to the end; the last validation. DivergedError keeps the checkpoints written before."""
         with _event_writer(self._directory) as events:
             self._events = events
@@ -173,14 +173,17 @@ class Trainer:
         for name, value in (("success", success), ("loss", loss), ("epsilon", self._epsilon())):
             self._events.add_scalar(f"training/{name}", value, self._episodes)
 
-    def _validate(self) -> Dict[str, float]:
+    def _validate(self) -> Dict[str, Any]:
         result = self._timed("validation", self._run_validation)
         self._log("validation", episodes=self._episodes, updates=self._learner.updates, **result)
         for name, value in result.items():
+            if value is None:
+                continue
             self._events.add_scalar(f"validation/{name}", value, self._episodes)
+        time_s = "none" if result["time_s"] is None else f"{result['time_s']:.2f}"
         self._progress.line(
             f"validation after {self._episodes} episodes: success {result['success']:.2f}, collision "
-            f"{result['collision']:.2f}, time {result['time_s']:.2f} s, discomfort {result['discomfort']:.3f}"
+            f"{result['collision']:.2f}, time {time_s} s, discomfort {result['discomfort']:.3f}"
         )
         score = (result["success"], result["mean_return"])
         if score > self._best:
@@ -188,7 +191,7 @@ class Trainer:
             self._save_network(BEST_FILE, result)
         return result
 
-    def _run_validation(self) -> Dict[str, float]:
+    def _run_validation(self) -> Dict[str, Any]:
         params = self._params
         numbers = range(SPLIT_SIZES["validation"])
         episodes = run_cases(
@@ -260,7 +263,7 @@ class Trainer:
         self._restored = {"memory": memory}
         _keep_log_until(self._directory / LOG_FILE, self._episodes)
 
-    def _save_network(self, name: str, validation: Dict[str, float]) -> None:
+    def _save_network(self, name: str, validation: Dict[str, Any]) -> None:
         origin = {
             "configuration": to_dict(self._params),
             "commit": source_commit(),
