@@ -39,12 +39,13 @@ std::string at(const sarn::Pose2D& pose) {
 }  // namespace
 
 Navigator::Navigator(const NavigatorParams& params, const timed_path_follower::FollowerParams& follower,
-                     PlanFunction plan)
+                     PlanFunction plan, CostFunction cost)
     : params_(params),
       follower_(follower),
       yield_monitor_(params),
       recovery_(params),
       progress_(params.progress_distance),
+      cost_(std::move(cost)),
       worker_(std::move(plan)) {}
 
 std::string Navigator::setGoal(const sarn::Pose2D& goal, const NavigatorInput& input) {
@@ -133,7 +134,7 @@ sarn::Twist2D Navigator::decide(const NavigatorInput& input) {
         return !person.states.empty() &&
                (person.states.front().position - input.pose.position()).norm() < 3.0;
       }));
-  adoptResult();
+  adoptResult(input);
   superviseYield(input);
   if (!goal_ && !yield_) return brake();
   if (goal_) status_.distance_to_goal = distanceToGoal(input.pose);
@@ -155,7 +156,7 @@ sarn::Twist2D Navigator::decide(const NavigatorInput& input) {
 // --- planning
 // ----------------------------------------------------------------------------------------------------
 
-void Navigator::adoptResult() {
+void Navigator::adoptResult(const NavigatorInput& input) {
   const auto result = worker_.poll();
   if (!result) return;
   status_.planning_time = result->search_time;
@@ -166,11 +167,27 @@ void Navigator::adoptResult() {
   status_.plan_status = result->status;
   if (lattice_planner::isDrivable(result->status) && !result->trajectory.empty()) {
     plan_failure_.clear();
-    adoptPlan(*result);
+    if (!keepsPlan(*result, input)) adoptPlan(*result);
     return;
   }
   plan_failure_ = lattice_planner::toString(result->status);
-  if (yield_ && !yield_->reached) endYield();
+  if (yield_ && !yield_->reached) endYield(input.now);
+}
+
+/// A plan that still leads to the goal is kept until a new one is clearly cheaper on the newest costs: a
+/// robot that changes its mind at every search, between two sides to pass on, passes on neither and nobody
+/// can read it.
+bool Navigator::keepsPlan(const lattice_planner::PlanResult& result, const NavigatorInput& input) const {
+  const double release = result.trajectory.startTime();
+  if (!cost_ || committed_.empty() || trajectory_status_ != PlanStatus::kComplete) return false;
+  if (trajectory_.endTime() <= release ||
+      firstConflict(trajectory_, *input.scene, input.now, trajectory_.endTime())) {
+    return false;
+  }
+  if (result.status != PlanStatus::kComplete) return true;
+  const double kept = cost_(trajectory_, *input.scene, release);
+  const double offered = cost_(result.trajectory, *input.scene, release);
+  return offered > params_.keep_plan_ratio * kept;
 }
 
 void Navigator::adoptPlan(const lattice_planner::PlanResult& result) {
@@ -258,7 +275,7 @@ void Navigator::superviseYield(const NavigatorInput& input) {
                  (person.states.front().position - yield_->origin).norm() < kYieldClearance;
         });
     const bool passed = !yield_monitor_.blockedBy(yield_->origin) && !somebody_there;
-    if (timed_out || (passed && input.now - yield_->start > kSettleTime)) endYield();
+    if (timed_out || (passed && input.now - yield_->start > kSettleTime)) endYield(input.now);
     return;
   }
   if (!standsStill(input) || input.now < yield_retry_time_) return;
@@ -280,10 +297,11 @@ void Navigator::startYield(const NavigatorInput& input, const BlockedPerson& per
   setState(NavigatorState::kYielding, "moves aside for " + person.name);
 }
 
-void Navigator::endYield() {
+void Navigator::endYield(double now) {
   yield_.reset();
   dropPlan();
-  next_plan_time_ = 0.0;
+  progress_.touch(now);
+  next_plan_time_ = now;
   setState(goal_ ? NavigatorState::kPlanning : NavigatorState::kIdle);
 }
 

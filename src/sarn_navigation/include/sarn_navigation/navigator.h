@@ -54,8 +54,9 @@ struct NavigatorStatus {
 /// recovers, gives up. No ROS and no clock of its own: step() is called at controller_frequency.
 class Navigator {
  public:
+  /// `cost`: what `plan` minimises; without it every new plan is taken over.
   Navigator(const NavigatorParams& params, const timed_path_follower::FollowerParams& follower,
-            PlanFunction plan);
+            PlanFunction plan, CostFunction cost = {});
 
   /// Takes a goal, dropping any other. Returns why it is refused; empty: accepted.
   [[nodiscard]] std::string setGoal(const sarn::Pose2D& goal, const NavigatorInput& input);
@@ -91,7 +92,8 @@ class Navigator {
   };
 
   // Planning.
-  void adoptResult();
+  void adoptResult(const NavigatorInput& input);
+  [[nodiscard]] bool keepsPlan(const lattice_planner::PlanResult& result, const NavigatorInput& input) const;
   void adoptPlan(const lattice_planner::PlanResult& result);
   void planWhenDue(const NavigatorInput& input);
   [[nodiscard]] std::optional<sarn::TrajectoryPoint> planStart(const NavigatorInput& input);
@@ -103,7 +105,7 @@ class Navigator {
   void recoverOrGiveUp(const NavigatorInput& input, const std::string& reason);
   void superviseYield(const NavigatorInput& input);
   void startYield(const NavigatorInput& input, const BlockedPerson& person);
-  void endYield();
+  void endYield(double now);
   [[nodiscard]] bool standsStill(const NavigatorInput& input) const;
   [[nodiscard]] double distanceToGoal(const sarn::Pose2D& pose) const;
   // Control.
@@ -138,6 +140,7 @@ class Navigator {
   int recoveries_ = 0;
   std::string plan_failure_;  // of the last search; empty: it gave a plan
 
+  CostFunction cost_;
   PlanningWorker worker_;  // last member: its thread ends before the rest
 };
 

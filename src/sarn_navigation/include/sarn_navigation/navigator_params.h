@@ -13,6 +13,7 @@ struct NavigatorParams {
   double planning_timeout = 0.25;      // [s] wall time of one search
   double release_delay =
       0.35;  // [s] a new plan starts this long after its search began (>= planning_timeout)
+  double keep_plan_ratio = 0.9;      // a new plan must cost less than this share of the one being driven
   double conflict_horizon = 4.0;     // [s] the plan is checked this far ahead against new costs
   double brake_margin = 0.4;         // [s] reaction time added to the braking time before a conflict
   double acc_lim_x = 1.0;            // [m/s^2] braking, the planner's
@@ -38,6 +39,7 @@ struct NavigatorParams {
     v("planner_frequency", p.planner_frequency, {0.1, 20.0});
     v("planning_timeout", p.planning_timeout, {0.01, 10.0});
     v("release_delay", p.release_delay, {0.0, 10.0});
+    v("keep_plan_ratio", p.keep_plan_ratio, {0.0, 1.0});
     v("conflict_horizon", p.conflict_horizon, {0.0, 30.0});
     v("brake_margin", p.brake_margin, {0.0, 5.0});
     v("acc_lim_x", p.acc_lim_x, {0.05, 10.0});

@@ -23,6 +23,10 @@ struct PlanningJob {
 using PlanFunction = std::function<lattice_planner::PlanResult(const lattice_planner::PlanRequest&,
                                                                const sarn::TimedCostmapView&)>;
 
+/// Cost of driving a trajectory from a time [s] on, on the given costs.
+using CostFunction =
+    std::function<double(const sarn::TimedTrajectory&, const sarn::TimedCostmapView&, double from)>;
+
 /// Runs one search at a time in a thread of its own, so that control never waits for planning.
 class PlanningWorker {
  public:

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lattice_planner/trajectory_cost.h"
 #include "sarn_common_ros/conversions.h"
 #include "sarn_navigation_ros/navigator_topics.h"
 #include "sarn_navigation_ros/path_conversions.h"
@@ -45,6 +46,12 @@ PlanFunction makePlanFunction(const lattice_planner::PlannerParams& params) {
   };
 }
 
+CostFunction makeCostFunction(const lattice_planner::PlannerParams& params) {
+  return [params](const sarn::TimedTrajectory& trajectory, const sarn::TimedCostmapView& view, double from) {
+    return lattice_planner::trajectoryCost(params, trajectory, view, from);
+  };
+}
+
 }  // namespace
 
 NavigatorNode::NavigatorNode(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
@@ -53,7 +60,8 @@ NavigatorNode::NavigatorNode(const ros::NodeHandle& nh, const ros::NodeHandle& p
       config_(readNavigatorConfig(private_nh_)),
       tf_listener_(tf_buffer_),
       costmap_(config_.costmap),
-      navigator_(config_.navigator, config_.follower, makePlanFunction(config_.planner)),
+      navigator_(config_.navigator, config_.follower, makePlanFunction(config_.planner),
+                 makeCostFunction(config_.planner)),
       display_(private_nh_, config_.node.global_frame, config_.node.visualization_frequency),
       lockstep_(nh_, topics::kLockstep) {
   command_ = nh_.advertise<geometry_msgs::Twist>(topics::kCommand, 10);

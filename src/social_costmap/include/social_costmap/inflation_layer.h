@@ -12,7 +12,7 @@ namespace social_costmap {
 
 struct InflationLayerParams {
   bool enabled = true;
-  double inscribed_radius = 0.18;    // [m] of the robot
+  double inscribed_radius = 0.22;    // [m] of the robot (0.18) and a margin for tracking
   double inflation_radius = 0.5;     // [m] no cost beyond
   double cost_scaling_factor = 5.0;  // [1/m]
   bool inflate_unknown = false;      // unknown cells also take costs below inscribed

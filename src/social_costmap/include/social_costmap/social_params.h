@@ -21,7 +21,7 @@ struct SocialParams {
   double variance_y = 0.20;                // [m^2] across
   double speed_variance_factor = 0.8;      // [s/m] in front: variance_x * (1 + factor * speed)
   double offset_x = 0.20;                  // [m] centre shifted ahead of the person
-  double offset_y = 0.15;                  // [m] centre shifted to the person's RIGHT
+  double offset_y = 0.25;                  // [m] centre shifted to the person's RIGHT
   double forbidden_radius = 0.50;          // [m] robot's centre to person's centre: 0.25 + 0.18 + margin 0.07
   double amplitude_time_factor = 0.0;      // value * (1 + layer * factor)
   double variance_time_factor = 0.0;       // value * (1 + layer * factor)
