@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any, Dict, Tuple
 
 import numpy as np
@@ -21,17 +22,19 @@ ALL = [
     NetworkParams("sarl", map_cells=4),
     NetworkParams("cadrl"),
     NetworkParams("lstm_rl"),
+    NetworkParams("sarl", mirror_mean=True),
 ]
 Weights = Dict[str, np.ndarray]
 
 
 def network(params: NetworkParams, robot_size: int = 6) -> ValueNetwork:
     torch.manual_seed(11)
-    return make_network(params, robot_size, 0.9)
+    return make_network(params, robot_size, 0.9).eval()
 
 
 def weights(net: ValueNetwork) -> Weights:
-    return {name: value.detach().double().numpy() for name, value in net.named_parameters()}
+    named = net.named_parameters()
+    return {name.replace("inner.", ""): value.detach().double().numpy() for name, value in named}
 
 
 def layers(w: Weights, name: str, x: np.ndarray, last_relu: bool = False) -> np.ndarray:
@@ -82,6 +85,10 @@ def lstm_value(w: Weights, s: np.ndarray, people: np.ndarray) -> float:
 
 
 def expected(params: NetworkParams, w: Weights, s: np.ndarray, people: np.ndarray) -> float:
+    if params.mirror_mean:
+        plain = dataclasses.replace(params, mirror_mean=False)
+        image = expected(plain, w, s * [1, 1, 1, -1, 1, -1], people * [1, -1, 1, -1, 1, 1, 1])
+        return 0.5 * (expected(plain, w, s, people) + image)
     if params.kind == "sarl":
         maps = [neighbourhood_map(people, i, params.map_cells, 1.0) for i in range(len(people))]
         return sarl_value(w, s, people, np.array(maps))

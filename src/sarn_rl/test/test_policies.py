@@ -19,12 +19,14 @@ from sarn_rl.policies.value_policy import CHUNK, ValuePolicy
 from sarn_rl.reward import RewardParams
 
 
-def policy(kinematics: Kinematics = Kinematics.HOLONOMIC, kind: str = "sarl") -> ValuePolicy:
+def policy(
+    kinematics: Kinematics = Kinematics.HOLONOMIC, kind: str = "sarl", mirror_mean: bool = False
+) -> ValuePolicy:
     torch.manual_seed(2)
     actions = ActionParams(kinematics=kinematics, headings=16 if kinematics is Kinematics.HOLONOMIC else 7)
     contract = Contract(actions=actions, robot_features=robot_features(kinematics))
-    network = make_network(NetworkParams(kind), len(contract.robot_features), 0.9)
-    return ValuePolicy(network, contract.make_lookahead())
+    network = make_network(NetworkParams(kind, mirror_mean=mirror_mean), len(contract.robot_features), 0.9)
+    return ValuePolicy(network.eval(), contract.make_lookahead())
 
 
 @pytest.mark.parametrize("kinematics", list(Kinematics))
@@ -53,7 +55,7 @@ def test_order_of_people_does_not_matter(crowd: JointState) -> None:
 
 
 def test_mirrored_world_offers_the_mirrored_rewards(crowd: JointState) -> None:
-    """The untrained network is not symmetric, but actions and rewards are."""
+    """A network need not be symmetric, but actions and rewards are."""
     lookahead = Contract().make_lookahead()
     here, there = lookahead.expand(crowd), lookahead.expand(mirrored_world(crowd))
     for world in range(len(crowd)):
@@ -61,6 +63,21 @@ def test_mirrored_world_offers_the_mirrored_rewards(crowd: JointState) -> None:
         match = np.linalg.norm(mirror[:, None] - there.actions[world][None], axis=-1)
         assert match.min(axis=1).max() < 1e-9
         assert there.rewards[world][match.argmin(axis=1)] == pytest.approx(here.rewards[world], abs=1e-9)
+
+
+@pytest.mark.parametrize("kinematics", list(Kinematics))
+def test_with_the_mirror_mean_the_mirrored_world_gives_the_mirrored_action(
+    crowd: JointState, kinematics: Kinematics
+) -> None:
+    here = policy(kinematics, mirror_mean=True)
+    actions, values = here.action_values(crowd)
+    other_actions, other_values = here.action_values(mirrored_world(crowd))
+    for world in range(len(crowd)):
+        distance = np.linalg.norm(
+            (actions[world] * [1.0, -1.0])[:, None] - other_actions[world][None], axis=-1
+        )
+        assert distance.min(axis=1).max() < 1e-9
+        assert other_values[world][distance.argmin(axis=1)] == pytest.approx(values[world], abs=2e-6)
 
 
 def test_value_is_reward_and_discounted_value_of_the_next_state(crowd: JointState) -> None:

@@ -6,12 +6,18 @@ from __future__ import annotations
 from sarn_rl.networks.base import ValueNetwork
 from sarn_rl.networks.cadrl import CadrlNetwork
 from sarn_rl.networks.lstm_rl import LstmNetwork
+from sarn_rl.networks.mirror_mean import MirrorMean
 from sarn_rl.networks.params import KINDS, NetworkParams
 from sarn_rl.networks.sarl import SarlNetwork
 
 
 def make_network(params: NetworkParams, robot_size: int, gamma: float) -> ValueNetwork:
     """A new network with random weights (of torch's global generator)."""
+    network = _plain_network(params, robot_size, gamma)
+    return MirrorMean(network) if params.mirror_mean else network
+
+
+def _plain_network(params: NetworkParams, robot_size: int, gamma: float) -> ValueNetwork:
     if params.kind == "cadrl":
         return CadrlNetwork(robot_size, gamma)
     if params.kind == "lstm_rl":

@@ -15,11 +15,13 @@ class NetworkParams:
     kind: sarl, cadrl or lstm_rl.
     map_cells: L of SARL's neighbourhood maps M_i; 0 for none.
     map_cell_size: [m] of theirs.
+    mirror_mean: whether a value is the mean of those of a state and of its mirror image.
     """
 
     kind: str = "sarl"
     map_cells: int = 0
     map_cell_size: float = 1.0
+    mirror_mean: bool = False
 
     def problems(self) -> Tuple[str, ...]:
         found = []

@@ -51,7 +51,7 @@ class Learner:
 
     def __init__(self, network: ValueNetwork, params: LearningParams) -> None:
         self.network = network
-        self.target = copy.deepcopy(network).requires_grad_(False)
+        self.target = copy.deepcopy(network).requires_grad_(False).eval()
         self._params = params
         self._optimizer = torch.optim.Adam(network.parameters(), lr=params.learning_rate, fused=True)
         self.updates = 0
