@@ -38,11 +38,21 @@ class RunRecord:
         return np.column_stack([np.interp(self.robot[:, 0], track[:, 0], track[:, k]) for k in (1, 2)])
 
     def side_at_passing(self, name: str) -> float:
-        """Lateral position [m] of the person in the robot's frame when nearest: positive at the robot's left."""
+        """Lateral offset [m] of the person when the robot passes: positive at the left of the robot's way.
+
+        The way leads from where the robot started to where it ended; it passes when the person, ahead before, is
+        level with it.
+
+        Raises:
+            AssertionError: the robot never passed the person.
+        """
+        way = self.robot[-1, 1:3] - self.robot[0, 1:3]
+        way = way / np.hypot(*way)
         offset = self._person_at_robot_times(name) - self.robot[:, 1:3]
-        i = int(np.argmin(np.hypot(offset[:, 0], offset[:, 1])))
-        yaw = self.robot[i, 3]
-        return float(-np.sin(yaw) * offset[i, 0] + np.cos(yaw) * offset[i, 1])
+        ahead = offset @ way
+        passed = np.nonzero((ahead[:-1] > 0.0) & (ahead[1:] <= 0.0))[0]
+        assert len(passed) > 0, "the robot never passed " + name
+        return float(_cross(way, offset[passed[-1]]))
 
     def distance_ahead_when_crossing(self, name: str) -> float:
         """How far ahead of a person who walks along y [m] the robot is when it crosses x = the person's x."""
