@@ -9,8 +9,8 @@ import unittest
 
 import rospy
 import rostest
-from run_recorder import RunRecorder
 from run_record import RunRecord
+from run_recorder import RunRecorder
 
 
 class NormTest(unittest.TestCase):
@@ -38,7 +38,7 @@ class NormTest(unittest.TestCase):
     def check_crossing(self, record: RunRecord) -> None:
         """A crossing person is not cut off: the robot crosses the person's line behind, or far ahead."""
         ahead = record.distance_ahead_when_crossing("anna")
-        self.assertTrue(ahead < 0.0 or ahead > 2.5, "crossed %.2f m ahead of the person" % ahead)
+        self.assertTrue(ahead < 0.0 or ahead > 2.5, f"crossed {ahead:.2f} m ahead of the person")
 
     def check_queue(self, record: RunRecord) -> None:
         """A queue is walked around, not through."""
@@ -59,7 +59,9 @@ class NormTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    name = [argument for argument in sys.argv[1:] if not argument.startswith("-") and ":=" not in argument][0]
+    name = next(
+        argument for argument in sys.argv[1:] if not argument.startswith("-") and ":=" not in argument
+    )
     NormTest.scenario = name
     rospy.init_node("norm_test", log_level=rospy.INFO)
     rostest.rosrun("sarn_tests", "norm_" + name, NormTest, [sys.argv[0]] + sys.argv[2:])

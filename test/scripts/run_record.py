@@ -40,8 +40,8 @@ class RunRecord:
     def side_at_passing(self, name: str) -> float:
         """Lateral offset [m] of the person when the robot passes: positive at the left of the robot's way.
 
-        The way leads from where the robot started to where it ended; it passes when the person, ahead before, is
-        level with it.
+        The way leads from where the robot started to where it ended; it passes when the person, ahead
+        before, is level with it.
 
         Raises:
             AssertionError: the robot never passed the person.

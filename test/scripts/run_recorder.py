@@ -54,7 +54,7 @@ class RunRecorder:
 
     def _on_contact(self, message: Contact) -> None:
         if message.robot_closing_speed > CLOSING_SPEED:
-            line = "%s at %.2f m/s" % (message.other, message.robot_closing_speed)
+            line = f"{message.other} at {message.robot_closing_speed:.2f} m/s"
             with self._lock:
                 self._contacts.append(line)
 

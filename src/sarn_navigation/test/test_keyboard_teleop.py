@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The key mapping of keyboard_teleop, and what its terminal handling leaves behind."""
+
 from __future__ import annotations
 
 import importlib.machinery

@@ -7,7 +7,8 @@
 
 namespace timed_path_follower {
 
-/// Reads FollowerParams from nh's namespace and logs each value; throws sarn::ParameterError with every problem at once.
+/// Reads FollowerParams from nh's namespace and logs each value; throws sarn::ParameterError with every
+/// problem at once.
 [[nodiscard]] FollowerParams readFollowerParameters(const ros::NodeHandle& nh);
 
 }  // namespace timed_path_follower
