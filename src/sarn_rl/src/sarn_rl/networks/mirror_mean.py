@@ -19,6 +19,9 @@ class MirrorMean(ValueNetwork):
     much. In training mode it is the other network alone: training mirrors half of its samples instead.
     """
 
+    robot_signs: torch.Tensor
+    person_signs: torch.Tensor
+
     def __init__(self, inner: ValueNetwork) -> None:
         super().__init__()
         self.robot_size = inner.robot_size

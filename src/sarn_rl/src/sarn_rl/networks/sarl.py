@@ -58,8 +58,9 @@ class SarlNetwork(ValueNetwork):
 
     @staticmethod
     def _run(layers: nn.Sequential, shared: torch.Tensor, own: torch.Tensor) -> torch.Tensor:
-        out = split_linear(layers[0], shared, own)
-        return layers[1:](out)
+        first = layers[0]
+        assert isinstance(first, nn.Linear)
+        return layers[1:](split_linear(first, shared, own))
 
 
 def _masked_mean(embedded: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
