@@ -14,7 +14,8 @@ def bringup(tmp_path):
     (tmp_path / "scenarios").mkdir()
     (tmp_path / "scenarios" / "queue.yaml").write_text("")
     (tmp_path / "sim.launch").write_text(
-        '<launch><arg name="scenario"/><arg name="seed" default="1"/></launch>'
+        '<launch><arg name="scenario"/><arg name="seed" default="1"/>'
+        '<arg name="lockstep" value="true"/></launch>'
     )
     return tmp_path
 

@@ -14,6 +14,7 @@ from sarn_evaluation.scenario import ScenarioError
 
 _EXAMPLES = """examples:
   python -m sarn_evaluation run scenario:=queue seed:=3      drive a scenario, judge it
+  python -m sarn_evaluation run --seeds 20 rate:=0           twenty seeds of the office, and a report
   python -m sarn_evaluation metrics runs/*/run.bag           every metric of each bag (also of a real robot's)
   python -m sarn_evaluation metrics --json run.bag           the same for programs
   python -m sarn_evaluation report runs/                     statistics over all runs below a folder
@@ -22,8 +23,10 @@ _EXAMPLES = """examples:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    from sarn_evaluation.run import run
+    from sarn_evaluation.run import run, run_seeds
 
+    if arguments.seeds:
+        return run_seeds(arguments.arguments, arguments.runs, arguments.seeds)
     return run(arguments.arguments, arguments.runs)
 
 
@@ -77,6 +80,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument(
         "--runs", type=Path, default=Path(os.environ.get("SARN_RUNS", "runs")), help="where runs go"
     )
+    run.add_argument("--seeds", type=int, metavar="N", help="one run for each seed 1..N, and a report")
     run.set_defaults(function=_run)
     metrics = commands.add_parser("metrics", help="every metric of a bag")
     metrics.add_argument("bags", nargs="+", type=Path)

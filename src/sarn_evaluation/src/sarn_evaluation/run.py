@@ -16,13 +16,14 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Dict, List, Sequence, TextIO
 
+from sarn_evaluation.occupancy import load_map
 from sarn_evaluation.progress import PREFIX
 from sarn_evaluation.scenario import ScenarioError, load_scenario
 
 # scenario_runner ends when the run is over; that roslaunch alarms at this is no news.
 _ALARM = re.compile(
-    r"\b(WARN|ERROR|FATAL)\b|Traceback|RLException|error loading|"
-    r"REQUIRED process \[(?!scenario_runner).* has died"
+    r"\b(WARN|ERROR|FATAL)\b|RLException|error loading|REQUIRED process \[(?!scenario_runner).* has died|"
+    r"process has died \[pid \d+, exit code -?[1-9](?!.*scenario_runner)"
 )
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _ROSLAUNCH_PATIENCE = 40.0  # [s] wall; its own limits for its nodes (15 s, 2 s) come first
@@ -41,7 +42,8 @@ def bringup_directory() -> Path:
 
 def launch_arguments(words: Sequence[str], launch_file: Path) -> Dict[str, str]:
     """NAME:=VALUE words as a dictionary, checked against the launch file's arguments. Raises UsageError."""
-    known = [arg.get("name", "") for arg in ElementTree.parse(launch_file).getroot().findall("arg")]
+    declared = ElementTree.parse(launch_file).getroot().findall("arg")
+    known = [arg.get("name", "") for arg in declared if arg.get("value") is None]
     arguments = {}
     for word in words:
         name, separator, value = word.partition(":=")
@@ -216,6 +218,8 @@ def run(words: Sequence[str], runs: Path) -> int:
     arguments = launch_arguments(words, launch_file)
     file = scenario_file(arguments, bringup)
     scenario = load_scenario(file)
+    if scenario.map is not None:
+        load_map(scenario.map)  # says what is wrong with it before anything starts
     seed = arguments.setdefault("seed", str(scenario.seed))
     if not seed.isdigit():
         raise UsageError(f"seed:={seed} is not a whole number >= 0")
@@ -235,11 +239,29 @@ def run(words: Sequence[str], runs: Path) -> int:
     return 0 if succeeded and finished else 1
 
 
+def run_seeds(words: Sequence[str], runs: Path, count: int) -> int:
+    """The same with seeds 1 to `count`, and a report; exit code 0 when every run went well."""
+    from sarn_evaluation.report import load_results, report
+
+    folder = make_run_dir(runs.resolve(), "seeds", count)
+    failed = 0
+    for seed in range(1, count + 1):
+        run_dir = folder / f"seed_{seed}"
+        failed += run([*words, f"seed:={seed}", f"run_dir:={run_dir}"], runs) != 0
+        print(f"--- {seed} of {count} runs, {failed} failed", flush=True)
+    print(report(load_results([folder])))
+    return 1 if failed else 0
+
+
 def _judge_bag(run_dir: Path) -> bool:
     from sarn_evaluation.judgement import judge_run
 
     if (run_dir / "run.bag").is_file():
-        return judge_run(run_dir)
+        try:
+            return judge_run(run_dir)
+        except ValueError as error:  # too short a run, a bag that cannot be read
+            print(f"error: {error}; what happened is in {run_dir / 'launch.log'}", file=sys.stderr)
+            return False
     print(f"no bag in {run_dir}; what happened is in {run_dir / 'launch.log'}", file=sys.stderr)
     return False
 
@@ -257,4 +279,4 @@ def _believe_runner(run_dir: Path) -> bool:
     return bool(episode["outcome"] == "success")
 
 
-__all__ = ["ScenarioError", "UsageError", "launch", "launch_arguments", "run", "scenario_file"]
+__all__ = ["ScenarioError", "UsageError", "launch", "launch_arguments", "run", "run_seeds", "scenario_file"]

@@ -36,6 +36,7 @@ _ENDED = (
     GoalStatus.PREEMPTED,
     GoalStatus.LOST,
 )
+SETTLING_TIME = 1.0  # [s] simulated and wall, from the first transform to the first goal
 
 
 class RunError(RuntimeError):
@@ -109,6 +110,12 @@ class ScenarioRunner:
         self._await(connected, f"no action server {topics.ACTION}: is the navigator running?")
         frames = f"{topics.MAP_FRAME} to {topics.BASE_FRAME}"
         self._await(localized, f"no transform {frames}: is localisation running?")
+        # The navigator hears the transforms on a connection of its own, which nobody can see from here.
+        heard, wall = rospy.get_time(), time.monotonic()
+        self._await(
+            lambda: rospy.get_time() > heard + SETTLING_TIME and time.monotonic() > wall + SETTLING_TIME,
+            "/clock stands still",
+        )
 
     def _await(self, condition: Callable[[], bool], complaint: str) -> None:
         deadline = time.monotonic() + self._patience
