@@ -53,6 +53,7 @@ def test_a_straight_drive_past_an_oncoming_person():
     assert metrics["efficiency"]["path_length_ratio"] == pytest.approx(1.0, abs=0.01)
     assert metrics["efficiency"]["time_ratio"] == pytest.approx(1.0, abs=0.01)
     assert metrics["efficiency"]["spl"] == pytest.approx(1.0, abs=0.01)
+    assert metrics["efficiency"]["mean_curvature_per_m"] == pytest.approx(0.0)
     assert metrics["smoothness"]["acceleration_max_mps2"] == pytest.approx(0.0, abs=1e-9)
     safety, social = metrics["safety"], metrics["social"]
     assert safety["person_distance_min_m"] == pytest.approx(0.9 - 0.43, abs=1e-3)

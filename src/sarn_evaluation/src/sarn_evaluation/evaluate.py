@@ -143,6 +143,7 @@ def _outcome(episode: Episode, track: RobotTrack, p: EvaluationParams) -> Dict[s
 
 def _efficiency(episode: Episode, track: RobotTrack, success: bool, p: EvaluationParams) -> Dict[str, Value]:
     length = motion.path_length(track.position)
+    thin = track.thinned(p.smoothing_interval)
     reference = _reference(episode, track)
     shortest = None if reference is None else sum(polyline_length(path) for path in reference)
     duration = float(track.time[-1] - track.time[0])
@@ -162,7 +163,7 @@ def _efficiency(episode: Episode, track: RobotTrack, success: bool, p: Evaluatio
         "mean_speed_mps": None if not length or duration <= 0.0 else length / duration,
         "heading_change_rad": motion.heading_change(track.yaw),
         "path_irregularity_rad_per_m": irregularity,
-        "mean_curvature_per_m": motion.mean_curvature(track.position, track.yaw),
+        "mean_curvature_per_m": motion.mean_curvature(thin.position, thin.yaw),
     }
 
 
