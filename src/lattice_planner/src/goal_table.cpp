@@ -117,8 +117,10 @@ void GoalTable::initialize() {
   const auto nodes = static_cast<std::size_t>(side_ * side_);
   values_.resize(nodes * headings_ * speed_pairs_);
   for (std::size_t node = 0; node < nodes; ++node) {
-    const double x = (static_cast<int>(node) % side_ - half_) * resolution_;
-    const double y = (static_cast<int>(node) / side_ - half_) * resolution_;
+    const int column = static_cast<int>(node) % side_ - half_;
+    const int row = static_cast<int>(node) / side_ - half_;
+    const double x = column * resolution_;
+    const double y = row * resolution_;
     for (std::size_t h = 0; h < headings_; ++h) {
       const double theta = 2.0 * sarn::kPi * static_cast<double>(h) / static_cast<double>(headings_);
       for (std::size_t s = 0; s < speed_pairs_; ++s) {
