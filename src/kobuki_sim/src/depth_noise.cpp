@@ -90,7 +90,9 @@ void DepthNoise::corrupt(const float* inverse_depth, const float* loss, std::uin
   for (int u = 0; u < params_.width; ++u) {
     const float w = inverse_depth[u];
     const float noisy = scale * w + ((quadratic * w + linear) * w + constant) * normal[u];
-    const auto whole = static_cast<float>(static_cast<std::int32_t>(noisy + 0.5F));
+    // Vectorises, unlike lround; noisy is never negative.
+    const auto whole =
+        static_cast<float>(static_cast<std::int32_t>(noisy + 0.5F));  // NOLINT(bugprone-incorrect-roundings)
     const float step = std::max(quantised > 0.5F ? whole : noisy, 1e-3F);
     const float depth = millimetre_scale / step + 0.5F;
     const bool valid = (w > 0.0F) & (depth >= nearest) & (depth < farthest + 1.0F) & (uniform[u] >= loss[u]);

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 /// A node of the file with its path, so that every message can name file and key.
 class Field {
  public:
-  Field(const fs::path& source, std::string key, YAML::Node node)
-      : source_(source), key_(std::move(key)), node_(std::move(node)) {}
+  Field(const fs::path& source, std::string key, const YAML::Node& node)
+      : source_(source), key_(std::move(key)), node_(node) {}
 
   [[noreturn]] void fail(const std::string& problem) const {
     const std::string line =

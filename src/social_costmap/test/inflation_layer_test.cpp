@@ -36,7 +36,8 @@ double nearestWall(const sarn::OccupancyMap& map, const sarn::CellIndex& cell) {
 }
 
 TEST(InflationCost, followsTheFormulaOfCostmap2d) {
-  InflationLayerParams params;  // inscribed 0.18, inflation 0.5, scaling 5
+  InflationLayerParams params;  // inflation 0.5, scaling 5
+  params.inscribed_radius = 0.18;
   EXPECT_EQ(254, inflationCost(params, 0.0));
   EXPECT_EQ(253, inflationCost(params, 0.05));
   EXPECT_EQ(253, inflationCost(params, 0.18));
@@ -73,7 +74,9 @@ TEST(InflationLayer, leavesUnknownCellsAloneUnlessTold) {
 }
 
 TEST(InflationLayer, blocksUnknownCellsWithinTheInscribedRadius) {
-  const CostGrid costs = inflated(testing::drawMap({"#?????"}, 0.1), {});
+  InflationLayerParams params;
+  params.inscribed_radius = 0.18;
+  const CostGrid costs = inflated(testing::drawMap({"#?????"}, 0.1), params);
   EXPECT_EQ(sarn::kInscribedObstacle, costs.at({1, 0}));
   EXPECT_EQ(sarn::kNoInformation, costs.at({2, 0}));
 }

@@ -128,7 +128,8 @@ TEST(PersonSpace, staysBelowTheInscribedCost) {
 
 TEST(PersonSpace, blocksNothingWhereNobodyIsSureToBe) {
   SocialParams p;
-  EXPECT_EQ(p.forbidden_radius, forbiddenRadius(p, 5.0, 0));
+  p.forbidden_sigma_limit = 0.0;
+  EXPECT_EQ(p.forbidden_radius, forbiddenRadius(p, 5.0, 0)) << "0: always block";
   p.forbidden_sigma_limit = 1.0;
   EXPECT_EQ(p.forbidden_radius, forbiddenRadius(p, 0.9, 0));
   EXPECT_EQ(0.0, forbiddenRadius(p, 1.1, 0));

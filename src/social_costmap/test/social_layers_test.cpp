@@ -64,7 +64,9 @@ TEST(SocialLayers, startsAtTheGivenTime) {
 }
 
 TEST(SocialLayers, movesPeopleOverTheWholeHorizon) {
-  SocialLayers layers = makeLayers();
+  SocialParams params;
+  params.forbidden_sigma_limit = 0.0;  // however uncertain
+  SocialLayers layers = makeLayers(params);
   layers.update(prediction({walker("anna", {0.5, 5.0}, {0.5, 0.0}, 4)}), 10.0);  // four states, thirty layers
   for (int i = 0; i < 30; ++i) EXPECT_EQ(254, costAt(layers, i, 0.5 + 0.25 * i, 5.0)) << i;
   const int near = *std::max_element(layers.timeLayers()[2].cells.begin(), layers.timeLayers()[2].cells.end(),

@@ -77,7 +77,7 @@ class KobukiBase {
 
  private:
   struct Pending {
-    std::uint64_t step;  // takes effect at the beginning of this step
+    std::uint64_t step = 0;  // takes effect at the beginning of this step
     sarn::Twist2D twist;
   };
 

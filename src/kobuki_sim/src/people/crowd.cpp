@@ -429,12 +429,12 @@ void Crowd::makeRoom(std::size_t i, std::size_t oncoming) {
 void Crowd::tryToReturn(std::size_t i, const RobotDisc& robot) {
   const Vector2d& start = movers_[i].start;
   PersonState& person = people_[i];
-  const auto isFree = [&](const Vector2d& p, double radius) {
+  const auto is_free = [&](const Vector2d& p, double radius) {
     return (p - start).norm() > person.radius + radius + kReturnRoom;
   };
-  if (!isFree(robot.position, robot.radius)) return;
+  if (!is_free(robot.position, robot.radius)) return;
   for (const PersonState& other : people_) {
-    if (other.present && !isFree(other.position, other.radius)) return;
+    if (other.present && !is_free(other.position, other.radius)) return;
   }
   person.position = positions_[i] = start;
   person.velocity.setZero();

@@ -155,7 +155,7 @@ std::vector<std::vector<Vector2d>> wallOutlines(const StaticMap& map, double tol
   return outlines;
 }
 
-WallIndex::WallIndex(std::vector<WallEdge> edges, double reach) : edges_(std::move(edges)), reach_(reach) {
+WallIndex::WallIndex(std::vector<WallEdge> edges, double reach) : edges_(std::move(edges)) {
   begin_.assign(1, 0);
   if (edges_.empty()) return;
   Vector2d low = edges_.front().start.point;

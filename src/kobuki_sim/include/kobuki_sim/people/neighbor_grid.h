@@ -26,7 +26,7 @@ class NeighborGrid {
  private:
   struct Entry {
     Eigen::Vector2d position;
-    int index;
+    int index = 0;
   };
 
   [[nodiscard]] int column(double x) const;

@@ -28,7 +28,6 @@ class WallIndex {
 
  private:
   std::vector<WallEdge> edges_;
-  double reach_;  // [m]
   sarn::GridGeometry squares_;
   std::vector<std::uint32_t> begin_;     // first entry of each square; one more at the end
   std::vector<std::uint32_t> in_reach_;  // indices of edges, by square
