@@ -8,6 +8,7 @@
 #include "sarn_common/map_io.h"
 #include "sarn_common_ros/conversions.h"
 #include "sarn_common_ros/parameter_reader.h"
+#include "sarn_common_ros/run_node.h"
 #include "sarn_localization/parameters.h"
 #include "sarn_localization_ros/map_server.h"
 
@@ -33,19 +34,13 @@ int main(int argc, char** argv) {
   }
   const auto map = loadOrComplain(argv[1]);
   if (!map) return EXIT_FAILURE;
-  // Outside the try block: the death of the last NodeHandle shuts logging down, before the FATAL line is out.
-  ros::NodeHandle nh;
-  try {
-    const auto params = sarn::readParameters<sarn_localization::MapServerParams>(ros::NodeHandle("~"));
+  return sarn::runNode(argc, argv, "map_server", [&](ros::NodeHandle nh, const ros::NodeHandle& private_nh) {
+    const auto params = sarn::readParameters<sarn_localization::MapServerParams>(private_nh);
     nav_msgs::OccupancyGrid message = toMessage(*map, params.frame_id);
     message.header.stamp = message.info.map_load_time = ros::Time::now();
     const sarn_localization::MapServer server(nh, message);
     ROS_INFO_STREAM("serving " << argv[1] << ": " << message.info.width << " x " << message.info.height
                                << " cells of " << message.info.resolution << " m");
     ros::spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(error.what());
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sarn_navigation_ros/run_node.h"
+#include "sarn_common_ros/run_node.h"
 #include "sarn_navigation_ros/safety_controller_node.h"
 
 int main(int argc, char** argv) {
-  return sarn_navigation::runNode<sarn_navigation::SafetyControllerNode>(argc, argv, "safety_controller");
+  return sarn::runNode<sarn_navigation::SafetyControllerNode>(argc, argv, "safety_controller");
 }
