@@ -7,10 +7,12 @@ setup(
         packages=[
             "sarn_rl",
             "sarn_rl.cli",
+            "sarn_rl.deployment",
             "sarn_rl.envs",
             "sarn_rl.evaluation",
             "sarn_rl.networks",
             "sarn_rl.policies",
+            "sarn_rl.ros",
             "sarn_rl.training",
         ],
         package_dir={"": "src"},
