@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "sarn_common/angles.h"
@@ -15,7 +16,8 @@ constexpr int kMaxSweeps = 300;
 /// Index [0, count) of a heading, with its fraction.
 double headingIndex(double heading, int count) {
   const double turns = heading / (2.0 * sarn::kPi);
-  const double index = (turns - std::floor(turns)) * count;
+  const double share = turns - static_cast<double>(static_cast<std::int64_t>(turns));
+  const double index = (share < 0.0 ? share + 1.0 : share) * count;
   return index < count ? index : 0.0;
 }
 

@@ -10,13 +10,92 @@ namespace lattice_planner {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::size_t kBuckets = 64;
+constexpr std::size_t kBuckets = 128;  // a power of two
 /// Largest ratio of 16-connected to Euclidean distance: halfway (in slope) between the moves (1, 0) and (2,
 /// 1), 1 / cos(atan(1/2) / 2).
 constexpr float kDetour = 1.02749F;
 constexpr float kEndSlackCells = 1.5F;
+constexpr float kGuess = 0.97F;  // of the grid's path: what a path is cheaper by that turns freely
+constexpr float kRootTwo = 1.41421356F;
+constexpr float kRootFive = 2.23606798F;
+constexpr int kChangeReach = 3;  // [cells] around a changed cell whose labels may be wrong
+
+/// 16-connected distance [cells]: the fewest cells' lengths of moves (1, 0), (1, 1) and (2, 1).
+float gridDistance(int dx, int dy) {
+  const auto x = static_cast<float>(std::abs(dx));
+  const auto y = static_cast<float>(std::abs(dy));
+  const float far = std::max(x, y);
+  const float near = std::min(x, y);
+  return 2.0F * near <= far ? far + (kRootFive - 2.0F) * near
+                            : (kRootFive - kRootTwo) * far + (2.0F * kRootTwo - kRootFive) * near;
+}
+
+/// What a cost counts as, so that dearer is larger and blocked is largest.
+TraversalMap::Levels levelsOf(const DistanceFieldTask& task) {
+  TraversalMap::Levels levels{};
+  for (std::size_t cost = 0; cost < 256; ++cost) {
+    std::size_t level = std::min<std::size_t>(cost, 254);
+    if (cost == 255) {  // unknown: the largest known cost that is no dearer
+      while (level > 0 && (*task.rate)[level] > (*task.rate)[cost]) --level;
+    }
+    levels[cost] = (*task.blocked)[cost] ? TraversalMap::kBlocked : static_cast<std::uint8_t>(level);
+  }
+  return levels;
+}
 
 }  // namespace
+
+bool DistanceField::sameTask(const DistanceFieldTask& task) const {
+  return task.geometry == task_.geometry && task.blocked == task_.blocked && task.rate == task_.rate &&
+         task.goal_x == task_.goal_x && task.goal_y == task_.goal_y &&
+         task.goal_radius == task_.goal_radius && task.floor_radius == task_.floor_radius &&
+         task.floor_id == task_.floor_id;
+}
+
+void DistanceField::reset(const DistanceFieldTask& task) {
+  const bool same = sameTask(task) && !labels_.empty();
+  task_ = task;
+  start_ = task_.geometry.cellAtUnbounded(task_.start_x, task_.start_y);
+  settled_count_ = 0;
+  const bool map_kept = map_.update(task_.geometry, task_.costs, levelsOf(task_), task_.exempt);
+  if (!same) layOut();
+  if (!same || !map_kept) {
+    clear();
+    seed();
+    return;
+  }
+  float lowest_changed = kInfinity;
+  for (const std::uint32_t index : map_.changed()) {
+    const sarn::CellIndex cell = cellOf(index);
+    for (int y = cell.y - kChangeReach; y <= cell.y + kChangeReach; ++y) {
+      for (int x = cell.x - kChangeReach; x <= cell.x + kChangeReach; ++x) {
+        if (!task_.geometry.contains({x, y})) continue;
+        lowest_changed = std::min(lowest_changed, labels_[task_.geometry.index({x, y})]);
+      }
+    }
+  }
+  if (lowest_changed <= 0.0F) {
+    clear();
+    seed();
+    return;
+  }
+  keepLabelsBelow(lowest_changed);
+  reopen();
+}
+
+void DistanceField::layOut() {
+  buildMoves();
+  const float resolution = static_cast<float>(task_.geometry.resolution);
+  for (std::size_t cost = 0; cost < 255; ++cost) half_rate_[cost] = 0.5F * resolution * (*task_.rate)[cost];
+  half_rate_[TraversalMap::kBlocked] = kInfinity;
+  cheapest_step_ = 2.0F * *std::min_element(half_rate_.begin(), half_rate_.end());
+  bucket_width_ = 0.5F * cheapest_step_;
+  buckets_per_cost_ = 1.0F / bucket_width_;
+  end_slack_ = kEndSlackCells * cheapest_step_;
+  const double reach = task_.floor_radius;
+  floor_low_ = task_.geometry.cellAtUnbounded(task_.goal_x - reach, task_.goal_y - reach);
+  floor_high_ = task_.geometry.cellAtUnbounded(task_.goal_x + reach, task_.goal_y + reach);
+}
 
 void DistanceField::buildMoves() {
   const std::ptrdiff_t width = task_.geometry.width;
@@ -25,91 +104,123 @@ void DistanceField::buildMoves() {
     for (int dy = -2; dy <= 2; ++dy) {
       const int far = std::max(std::abs(dx), std::abs(dy));
       if (far == 0 || (far == 2 && std::min(std::abs(dx), std::abs(dy)) != 1)) continue;
-      Move move{dx, dy, static_cast<float>(std::hypot(dx, dy)), {0, 0}, {0, 0}, dy * width + dx, {0, 0}};
+      Move move{dx, dy, static_cast<float>(std::hypot(dx, dy)), dy * width + dx, {0, 0}};
       if (far == 2) {
         const bool along_x = std::abs(dx) == 2;
-        move.via_x[0] = along_x ? dx / 2 : 0;
-        move.via_y[0] = along_x ? 0 : dy / 2;
-        move.via_x[1] = along_x ? dx / 2 : dx;
-        move.via_y[1] = along_x ? dy : dy / 2;
-        for (int i : {0, 1}) move.via[i] = move.via_y[i] * width + move.via_x[i];
+        move.via[0] = along_x ? dx / 2 : dy / 2 * width;
+        move.via[1] = along_x ? dy * width + dx / 2 : dy / 2 * width + dx;
       }
       moves_.push_back(move);
     }
   }
 }
 
-void DistanceField::reset(DistanceFieldTask task) {
-  constexpr Cell kFresh{kInfinity, -1.0F, 0};
-  if (cells_.size() == task.geometry.size()) {
-    for (const std::uint32_t cell : touched_) cells_[cell] = kFresh;
-  } else {
-    cells_.assign(task.geometry.size(), kFresh);
+void DistanceField::clear() {
+  if (labels_.size() != task_.geometry.size()) {
+    labels_.assign(task_.geometry.size(), kInfinity);
+    settled_.assign(task_.geometry.size(), 0);
+  } else if (first_row_ <= last_row_) {
+    const auto width = static_cast<std::ptrdiff_t>(task_.geometry.width);
+    std::fill(labels_.begin() + first_row_ * width, labels_.begin() + (last_row_ + 1) * width, kInfinity);
+    std::fill(settled_.begin() + first_row_ * width, settled_.begin() + (last_row_ + 1) * width,
+              std::uint8_t{0});
   }
-  touched_.clear();
+  first_row_ = task_.geometry.height;
+  last_row_ = -1;
   buckets_.resize(kBuckets);
   for (auto& bucket : buckets_) bucket.clear();
   first_bucket_ = 0;
   first_number_ = 0;
-  pending_ = settled_ = 0;
-  task_ = std::move(task);
-  buildMoves();
-  const float resolution = static_cast<float>(task_.geometry.resolution);
-  bucket_width_ = *std::min_element(task_.rate->begin(), task_.rate->end()) * resolution;
-  buckets_per_cost_ = 1.0F / bucket_width_;
-  end_slack_ = kEndSlackCells * bucket_width_;
-  const double reach = task_.floor_radius;
-  floor_low_ = task_.geometry.cellAtUnbounded(task_.goal_x - reach, task_.goal_y - reach);
-  floor_high_ = task_.geometry.cellAtUnbounded(task_.goal_x + reach, task_.goal_y + reach);
-  seed();
+  pending_ = reused_ = 0;
 }
 
 void DistanceField::seed() {
   const double reach = task_.goal_radius + 1.5 * task_.geometry.resolution;
   const int cells = static_cast<int>(std::ceil(reach / task_.geometry.resolution)) + 1;
   const sarn::CellIndex center = task_.geometry.cellAtUnbounded(task_.goal_x, task_.goal_y);
+  std::vector<sarn::CellIndex> seeds;
+  float least_key = kInfinity;
   for (int y = center.y - cells; y <= center.y + cells; ++y) {
     for (int x = center.x - cells; x <= center.x + cells; ++x) {
       const sarn::CellIndex cell{x, y};
       if (!task_.geometry.contains(cell)) continue;
       const Eigen::Vector2d p = task_.geometry.center(cell);
       if (std::hypot(p.x() - task_.goal_x, p.y() - task_.goal_y) > reach) continue;
-      const auto index = static_cast<std::uint32_t>(task_.geometry.index(cell));
-      if (rate(cell, index) == kInfinity) continue;
-      cells_[index].label = 0.0F;
-      push(0.0F, index);
+      if (map_.thinned()[task_.geometry.index(cell)] == TraversalMap::kBlocked) continue;
+      seeds.push_back(cell);
+      least_key = std::min(least_key, keyOf(0.0F, cell));
+    }
+  }
+  if (seeds.empty()) return;
+  first_number_ = static_cast<std::int64_t>(least_key * buckets_per_cost_);
+  for (const sarn::CellIndex& cell : seeds) {
+    const auto index = static_cast<std::uint32_t>(task_.geometry.index(cell));
+    labels_[index] = 0.0F;
+    push(0.0F, cell);
+  }
+}
+
+/// Whatever lies nearer to the goal than every changed cell is not touched by the change.
+void DistanceField::keepLabelsBelow(float label) {
+  const auto width = static_cast<std::size_t>(task_.geometry.width);
+  reused_ = 0;
+  for (std::size_t i = static_cast<std::size_t>(first_row_) * width;
+       i < static_cast<std::size_t>(last_row_ + 1) * width; ++i) {
+    if (settled_[i] != 0 && labels_[i] < label) {
+      ++reused_;
+    } else {
+      settled_[i] = 0;
+      labels_[i] = kInfinity;
     }
   }
 }
 
-float DistanceField::rate(const sarn::CellIndex& cell, std::uint32_t index) {
-  float& known = cells_[index].rate;
-  if (known < 0.0F) {
-    known = computeRate(cell);
-    touched_.push_back(index);
-  }
-  return known;
-}
-
-float DistanceField::computeRate(const sarn::CellIndex& cell) {
-  float best = kInfinity;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const sarn::CellIndex near{cell.x + dx, cell.y + dy};
-      if (!task_.geometry.contains(near)) continue;
-      const std::uint8_t cost = task_.costs[task_.geometry.index(near)];
-      if ((*task_.blocked)[cost] && !(task_.exempt && task_.exempt(near))) continue;
-      best = std::min(best, (*task_.rate)[cost]);
+/// Opens the neighbours of the cells that are known, in the order of the new start.
+void DistanceField::reopen() {
+  for (auto& bucket : buckets_) bucket.clear();
+  pending_ = 0;
+  first_bucket_ = 0;
+  const auto width = static_cast<std::size_t>(task_.geometry.width);
+  float least_key = kInfinity;
+  std::vector<std::uint32_t> border;
+  for (std::size_t i = static_cast<std::size_t>(first_row_) * width;
+       i < static_cast<std::size_t>(last_row_ + 1) * width; ++i) {
+    if (settled_[i] == 0) continue;
+    const sarn::CellIndex cell = cellOf(static_cast<std::uint32_t>(i));
+    bool inner = true;
+    for (const Move& move : moves_) {
+      if (!task_.geometry.contains({cell.x + move.dx, cell.y + move.dy})) continue;
+      inner = inner && settled_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + move.offset)] != 0;
     }
+    if (inner) continue;
+    border.push_back(static_cast<std::uint32_t>(i));
+    least_key = std::min(least_key, keyOf(labels_[i], cell));
   }
-  return best * static_cast<float>(task_.geometry.resolution);
+  if (border.empty()) {
+    clear();
+    seed();
+    return;
+  }
+  first_number_ = static_cast<std::int64_t>(least_key * buckets_per_cost_);
+  for (const std::uint32_t index : border) relaxNeighbours(cellOf(index), index);
 }
 
-void DistanceField::push(float key, std::uint32_t cell) {
-  const auto number = static_cast<std::uint64_t>(key * buckets_per_cost_);
-  const std::uint64_t offset = number > first_number_ ? number - first_number_ : 0;
-  const std::size_t slot = (first_bucket_ + std::min<std::uint64_t>(offset, kBuckets - 1)) % kBuckets;
-  buckets_[slot].push_back({key, cell});
+sarn::CellIndex DistanceField::cellOf(std::uint32_t index) const {
+  const auto width = static_cast<std::uint32_t>(task_.geometry.width);
+  return {static_cast<int>(index % width), static_cast<int>(index / width)};
+}
+
+/// A* towards the start: consistent, as no move is cheaper than its length at the smallest rate.
+float DistanceField::keyOf(float label, const sarn::CellIndex& cell) const {
+  return label + cheapest_step_ * gridDistance(cell.x - start_.x, cell.y - start_.y);
+}
+
+void DistanceField::push(float label, const sarn::CellIndex& cell) {
+  const auto number = static_cast<std::int64_t>(keyOf(label, cell) * buckets_per_cost_);
+  const auto offset = std::clamp<std::int64_t>(number - first_number_, 0, kBuckets - 1);
+  buckets_[(first_bucket_ + static_cast<std::size_t>(offset)) % kBuckets].push_back({label, cell});
+  first_row_ = std::min(first_row_, cell.y);
+  last_row_ = std::max(last_row_, cell.y);
   ++pending_;
 }
 
@@ -123,16 +234,14 @@ bool DistanceField::advanceOneBucket() {
   for (std::size_t i = 0; i < bucket.size(); ++i) {  // grows while it is read
     const Entry entry = bucket[i];
     --pending_;
-    Cell& cell = cells_[entry.cell];
-    if (cell.settled != 0 || entry.key > cell.label) continue;
-    if (static_cast<std::uint64_t>(entry.key * buckets_per_cost_) >
-        first_number_) {  // did not fit into the ring
-      push(entry.key, entry.cell);
+    const auto index = static_cast<std::uint32_t>(task_.geometry.index(entry.cell));
+    if (entry.label > labels_[index]) continue;
+    if (static_cast<std::int64_t>(keyOf(entry.label, entry.cell) * buckets_per_cost_) > first_number_) {
+      push(entry.label, entry.cell);  // it did not fit into the ring
       continue;
     }
-    cell.settled = 1;
-    ++settled_;
-    relaxNeighbours(entry.cell);
+    settle(index);
+    relaxNeighbours(entry.cell, index);
   }
   bucket.clear();
   first_bucket_ = (first_bucket_ + 1) % kBuckets;
@@ -140,9 +249,13 @@ bool DistanceField::advanceOneBucket() {
   return true;
 }
 
-void DistanceField::relaxNeighbours(std::uint32_t index) {
-  const auto width = static_cast<std::uint32_t>(task_.geometry.width);
-  const sarn::CellIndex cell{static_cast<int>(index % width), static_cast<int>(index / width)};
+/// A label may still fall until its bucket is empty: questions are answered between buckets only.
+void DistanceField::settle(std::uint32_t index) {
+  if (settled_[index] == 0) ++settled_count_;
+  settled_[index] = 1;
+}
+
+void DistanceField::relaxNeighbours(const sarn::CellIndex& cell, std::uint32_t index) {
   const bool interior =
       cell.x >= 2 && cell.y >= 2 && cell.x < task_.geometry.width - 2 && cell.y < task_.geometry.height - 2;
   if (interior) {
@@ -154,61 +267,92 @@ void DistanceField::relaxNeighbours(std::uint32_t index) {
 
 template <bool kInterior>
 void DistanceField::relaxNeighboursOf(const sarn::CellIndex& cell, std::uint32_t index) {
-  const float cost = cells_[index].label;
-  const float own_rate = cells_[index].rate;
+  const std::uint8_t* const costs = map_.thinned().data();
+  const float label_here = labels_[index];
+  const float own_rate = half_rate_[costs[index]];
+  const float least_rate = own_rate + 0.5F * cheapest_step_;
   for (const Move& move : moves_) {
     const sarn::CellIndex to{cell.x + move.dx, cell.y + move.dy};
     if (!kInterior && !task_.geometry.contains(to)) continue;
     const auto target = static_cast<std::uint32_t>(index + move.offset);
-    // No move costs less than with the target's rate at zero: most known cells need no closer look.
-    if (cells_[target].label <= cost + move.length * 0.5F * (own_rate + bucket_width_)) continue;
-    const float next_rate = rate(to, target);
-    if (next_rate == kInfinity) continue;
-    float label = cost + 0.5F * move.length * (own_rate + next_rate);
-    if (label >= cells_[target].label) continue;
-    if (move.length > 2.0F) {
-      const float via = std::min(rate({cell.x + move.via_x[0], cell.y + move.via_y[0]},
-                                      static_cast<std::uint32_t>(index + move.via[0])),
-                                 rate({cell.x + move.via_x[1], cell.y + move.via_y[1]},
-                                      static_cast<std::uint32_t>(index + move.via[1])));
-      if (via == kInfinity) continue;
+    // Most known cells need no closer look.
+    if (labels_[target] <= label_here + move.length * least_rate) continue;
+    float label = label_here + move.length * (own_rate + half_rate_[costs[target]]);
+    if (label >= labels_[target]) continue;
+    if (move.length > 2.0F && costs[index + move.via[0]] == TraversalMap::kBlocked &&
+        costs[index + move.via[1]] == TraversalMap::kBlocked) {
+      continue;
     }
     if (to.x >= floor_low_.x && to.y >= floor_low_.y && to.x <= floor_high_.x && to.y <= floor_high_.y &&
         task_.floor) {
       const float floor = task_.floor(to);
       if (floor > 0.0F) label = std::max(label, (floor + end_slack_) * kDetour);
-      if (label >= cells_[target].label) continue;
+      if (label >= labels_[target]) continue;
     }
-    cells_[target].label = label;
-    push(label, target);
+    labels_[target] = label;
+    push(label, to);
   }
 }
 
 float DistanceField::lowerBound(float label) const { return std::max(0.0F, label / kDetour - end_slack_); }
 
+/// No cell that is not known has a smaller label.
+float DistanceField::frontLabel(const sarn::CellIndex& cell) const {
+  return static_cast<float>(first_number_) * bucket_width_ - keyOf(0.0F, cell);
+}
+
 float DistanceField::at(const sarn::CellIndex& cell) {
   const std::size_t index = task_.geometry.index(cell);
   unsigned turns = 0;
-  while (cells_[index].settled == 0) {
-    if ((++turns & 15U) == 0 && keep_going_ && !keep_going_()) {
-      return lowerBound(static_cast<float>(first_number_) * bucket_width_);
-    }
+  while (settled_[index] == 0) {
+    if ((++turns & 15U) == 0 && keep_going_ && !keep_going_()) return lowerBound(frontLabel(cell));
     if (!advanceOneBucket()) return kInfinity;
   }
-  return lowerBound(cells_[index].label);
+  return lowerBound(labels_[index]);
 }
 
-void DistanceField::computeTo(float bound) {
+DistanceField::Guess DistanceField::guess(double x, double y) {
+  const sarn::GridGeometry& g = task_.geometry;
+  const sarn::CellIndex cell = g.cellAtUnbounded(x, y);
+  if (at(cell) == kInfinity) return {kInfinity, 0.0F, 0.0F};
+  const double column = (x - g.origin_x) / g.resolution - 0.5;
+  const double row = (y - g.origin_y) / g.resolution - 0.5;
+  const sarn::CellIndex low{column < cell.x ? cell.x - 1 : cell.x, row < cell.y ? cell.y - 1 : cell.y};
+  const float here = labels_[g.index(cell)];
+  if (low.x < 0 || low.y < 0 || low.x + 1 >= g.width || low.y + 1 >= g.height) {
+    return {kGuess * here, 0.0F, 0.0F};
+  }
+  const float* const c = labels_.data() + g.index(low);
+  const float c00 = c[0], c10 = c[1], c01 = c[g.width], c11 = c[g.width + 1];
+  if (std::max(std::max(c00, c10), std::max(c01, c11)) == kInfinity) return {kGuess * here, 0.0F, 0.0F};
+  const auto fx = static_cast<float>(column - low.x);
+  const auto fy = static_cast<float>(row - low.y);
+  const float bottom = c00 + fx * (c10 - c00);
+  const float top = c01 + fx * (c11 - c01);
+  const auto per_cell = static_cast<float>(1.0 / g.resolution);
+  return {kGuess * (bottom + fy * (top - bottom)), ((1.0F - fy) * (c10 - c00) + fy * (c11 - c01)) * per_cell,
+          (top - bottom) * per_cell};
+}
+
+void DistanceField::computeDetours(float extra) {
+  const float start = at(start_);
+  if (start == kInfinity) return;
+  const float until = labels_[task_.geometry.index(start_)] + extra;
   unsigned turns = 0;
-  while (lowerBound(static_cast<float>(first_number_) * bucket_width_) < bound) {
+  while (static_cast<float>(first_number_) * bucket_width_ < until) {
     if ((++turns & 15U) == 0 && keep_going_ && !keep_going_()) return;
     if (!advanceOneBucket()) return;
   }
 }
 
 float DistanceField::known(const sarn::CellIndex& cell) const {
-  const Cell& c = cells_[task_.geometry.index(cell)];
-  return c.settled != 0 ? lowerBound(c.label) : kInfinity;
+  const std::size_t index = task_.geometry.index(cell);
+  return settled_[index] != 0 ? lowerBound(labels_[index]) : kInfinity;
+}
+
+float DistanceField::knownGuess(const sarn::CellIndex& cell) const {
+  const std::size_t index = task_.geometry.index(cell);
+  return settled_[index] != 0 ? kGuess * labels_[index] : kInfinity;
 }
 
 }  // namespace lattice_planner

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -13,6 +14,14 @@ namespace {
 
 constexpr std::size_t kFineHeadings = 720;
 constexpr int kMaxSweeps = 120;
+
+/// An angle [rad] as a share of the full circle, in [0, 1).
+double turnsOf(double angle) {
+  const double turns = angle * (0.5 / sarn::kPi);
+  const double share = turns - static_cast<double>(static_cast<std::int64_t>(turns));
+  const double positive = share < 0.0 ? share + 1.0 : share;
+  return positive < 1.0 ? positive : 0.0;
+}
 
 }  // namespace
 
@@ -38,13 +47,6 @@ GoalTable::GoalTable(const PlannerParams& params, const MotionLattice& lattice)
   computeFloors();
 }
 
-double GoalTable::wrapHeading(double theta, std::size_t count) const {
-  const double n = static_cast<double>(count);
-  const double h = theta / (2.0 * sarn::kPi) * n;
-  const double wrapped = h - n * std::floor(h / n);
-  return wrapped < n ? wrapped : 0.0;
-}
-
 void GoalTable::buildTurnCosts(double rotation_weight) {
   const auto omegas = static_cast<std::size_t>(lattice_.angularSpeeds());
   turn_costs_.assign(kFineHeadings * omegas, 0.0F);
@@ -59,7 +61,7 @@ void GoalTable::buildTurnCosts(double rotation_weight) {
         if (standing && std::abs(theta) <= yaw_tolerance_) continue;
         float best = std::numeric_limits<float>::infinity();
         for (const MotionPrimitive& p : lattice_.from(lattice_.standingV(), static_cast<int>(w))) {
-          const double next = wrapHeading(theta + p.dtheta, kFineHeadings);
+          const double next = turnsOf(theta + p.dtheta) * static_cast<double>(kFineHeadings);
           const auto low = static_cast<std::size_t>(next);
           const std::size_t high = (low + 1) % kFineHeadings;
           // The cheaper neighbour: a lower bound whatever lies between.
@@ -76,13 +78,13 @@ void GoalTable::buildTurnCosts(double rotation_weight) {
   }
 }
 
-float GoalTable::simpleBound(double x, double y, double theta, int v, int omega) const {
+float GoalTable::simpleBound(double x, double y, double turns, int v, int omega) const {
   const auto omegas = static_cast<std::size_t>(lattice_.angularSpeeds());
-  const auto heading = static_cast<std::size_t>(wrapHeading(theta, kFineHeadings));
+  const auto heading = static_cast<std::size_t>(turns * static_cast<double>(kFineHeadings));
   const float turn =
       std::min(turn_costs_[heading * omegas + static_cast<std::size_t>(omega)],
                turn_costs_[(heading + 1) % kFineHeadings * omegas + static_cast<std::size_t>(omega)]);
-  const double distance = std::hypot(x, y) - xy_tolerance_;
+  const double distance = std::sqrt(x * x + y * y) - xy_tolerance_;
   const double drive = distance > 0.0 ? distance * lattice_.costPerMetre() : 0.0;
   const double brake = time_weight_ * lattice_.timeStep() * std::abs(v - lattice_.standingV());
   return std::max({turn, static_cast<float>(drive), static_cast<float>(brake)});
@@ -97,7 +99,7 @@ void GoalTable::buildTransitions() {
         for (const MotionPrimitive& p : lattice_.from(v, omega)) {
           const Eigen::Vector2d end =
               sarn::Pose2D{0.0, 0.0, theta} * p.samples.back().position() / resolution_;
-          const double next = wrapHeading(theta + p.dtheta, headings_);
+          const double next = turnsOf(theta + p.dtheta) * static_cast<double>(headings_);
           const auto low = static_cast<std::size_t>(next);
           const double dx = std::floor(end.x());
           const double dy = std::floor(end.y());
@@ -126,7 +128,7 @@ void GoalTable::initialize() {
       for (std::size_t s = 0; s < speed_pairs_; ++s) {
         const int v = static_cast<int>(s) / lattice_.angularSpeeds();
         const int omega = static_cast<int>(s) % lattice_.angularSpeeds();
-        values_[index(node, h, s)] = simpleBound(x, y, theta, v, omega);
+        values_[index(node, h, s)] = simpleBound(x, y, turnsOf(theta), v, omega);
       }
     }
   }
@@ -183,11 +185,11 @@ float GoalTable::bestSuccessor(int ix, int iy, const std::vector<Transition>& tr
       to_go = interpolate(static_cast<std::size_t>(y * side_ + x), t.fx, t.fy, t.heading_low, t.heading_high,
                           t.heading_fraction, t.speeds);
     } else {
-      const double theta = 2.0 * sarn::kPi *
-                           (static_cast<double>(t.heading_low) + static_cast<double>(t.heading_fraction)) /
+      const double turns = (static_cast<double>(t.heading_low) + static_cast<double>(t.heading_fraction)) /
                            static_cast<double>(headings_);
       to_go = simpleBound((x + static_cast<double>(t.fx) - half_) * resolution_,
-                          (y + static_cast<double>(t.fy) - half_) * resolution_, theta, t.v, t.omega);
+                          (y + static_cast<double>(t.fy) - half_) * resolution_, std::min(turns, 1.0 - 1e-9),
+                          t.v, t.omega);
     }
     best = std::min(best, t.cost + to_go);
   }
@@ -239,22 +241,24 @@ float GoalTable::floorAt(double x, double y) const {
   return std::max(0.0F, floors_[static_cast<std::size_t>(iy * side_ + ix)] - margin());
 }
 
-float GoalTable::at(double x, double y, double theta, int v, int omega) const {
-  const float simple = simpleBound(x, y, theta, v, omega);
-  return inside(x, y) ? std::max(simple, guess(x, y, theta, v, omega) - margin()) : simple;
+GoalTable::Value GoalTable::at(double x, double y, double theta, int v, int omega) const {
+  const double turns = turnsOf(theta);
+  const float simple = simpleBound(x, y, turns, v, omega);
+  if (!inside(x, y)) return {simple, simple};
+  const float likely = interpolateAt(x, y, turns, v, omega);
+  return {std::max(simple, likely - margin()), likely};
 }
 
-float GoalTable::guess(double x, double y, double theta, int v, int omega) const {
-  if (!inside(x, y)) return simpleBound(x, y, theta, v, omega);
+float GoalTable::interpolateAt(double x, double y, double turns, int v, int omega) const {
   const double gx = x / resolution_ + half_;
   const double gy = y / resolution_ + half_;
-  const double heading = wrapHeading(theta, headings_);
+  const double heading = turns * static_cast<double>(headings_);
   const auto ix = static_cast<std::size_t>(gx);
   const auto iy = static_cast<std::size_t>(gy);
   const auto low = static_cast<std::size_t>(heading);
   return interpolate(iy * static_cast<std::size_t>(side_) + ix,
                      static_cast<float>(gx - static_cast<double>(ix)),
-                     static_cast<float>(gy - static_cast<double>(iy)), low, (low + 1) % headings_,
+                     static_cast<float>(gy - static_cast<double>(iy)), low, low + 1 < headings_ ? low + 1 : 0,
                      static_cast<float>(heading - static_cast<double>(low)),
                      static_cast<std::size_t>(v * lattice_.angularSpeeds() + omega));
 }

@@ -12,7 +12,8 @@ namespace lattice_planner {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr double kLeastImprovement = 500.0;       // [expansions]
+constexpr float kPeopleShare = 0.7F;              // of what people add to the way: timing avoids much of it
+constexpr double kLeastImprovement = 200.0;       // [expansions]
 constexpr double kFullCost = 252.0;               // the largest cost that may be entered
 constexpr std::uint8_t kUnknownCountsAs = 126;    // when it may be entered
 constexpr std::uint32_t kLongestTimeAxis = 2000;  // [time steps]
@@ -166,6 +167,8 @@ void Search::prepareDistanceField() {
   task.costs = costmap_.static_costs;
   task.blocked = &forbidden_static_;
   task.rate = &static_per_metre_;
+  task.start_x = request_.start.x;
+  task.start_y = request_.start.y;
   task.goal_x = request_.goal.x;
   task.goal_y = request_.goal.y;
   task.goal_radius = params_.xy_goal_tolerance;
@@ -174,13 +177,14 @@ void Search::prepareDistanceField() {
   }
   if (!table_.empty()) {
     task.floor_radius = table_.radius();
+    task.floor_id = request_.goal.theta;
     task.floor = [this](const sarn::CellIndex& cell) {
       const Eigen::Vector2d p = goal_from_map_ * costmap_.geometry.center(cell);
       return table_.floorAt(p.x(), p.y());
     };
   }
   field_.setKeepGoing([this] { return Clock::now() < deadline_; });
-  field_.reset(std::move(task));
+  field_.reset(task);
 }
 
 void Search::preparePeopleField() {
@@ -190,6 +194,7 @@ void Search::preparePeopleField() {
   task.social_rate = &social_rate_;
   task.forbidden_static = &forbidden_static_;
   task.forbidden_social = &forbidden_social_;
+  task.combine_with_max = params_.combine_with_max;
   task.time_weight = params_.time_weight;
   task.length_weight = params_.length_weight;
   task.max_speed = lattice_.maxSpeed();
@@ -203,27 +208,34 @@ void Search::preparePeopleField() {
   people_field_.reset(task, field_);
 }
 
-/// Cost to go with people and with turning into the direction of the way; near the goal the table knows
-/// better.
-float Search::estimate(const SearchState& state) const {
-  const SpaceTimeField::Estimate place =
-      people_field_.at(state.x, state.y, request_.start.t + state.step * params_.time_step);
+/// The admissible bound and the guess. The guess: the way at its likely cost, what people add to it, and
+/// turning into its direction; near the goal the table knows better.
+void Search::judge(SearchState& state) {
   const Eigen::Vector2d p = goal_from_map_ * Eigen::Vector2d(state.x, state.y);
-  if (place.cost == kInfinity) return state.h;
-  if (table_.covers(p.x(), p.y())) {
-    const float near = table_.guess(p.x(), p.y(), state.theta - request_.goal.theta, state.v, state.omega);
-    return std::max({state.h, place.cost, near});
+  const GoalTable::Value near =
+      table_.at(p.x(), p.y(), state.theta - request_.goal.theta, state.v, state.omega);
+  const DistanceField::Guess way = field_.guess(state.x, state.y);
+  state.h = std::max(field_.at(costmap_.geometry.cellAtUnbounded(state.x, state.y)), near.bound);
+  state.estimate = state.h;
+  if (state.h == kInfinity) return;
+  SpaceTimeField::Estimate place{way.cost, way.slope_x, way.slope_y};
+  if (last_layer_ >= 0) {
+    const auto crowded =
+        people_field_.at(state.x, state.y, request_.start.t + state.step * params_.time_step);
+    if (crowded.cost != kInfinity) {
+      place = crowded;
+      place.cost = way.cost + kPeopleShare * std::max(0.0F, crowded.cost - way.cost);
+    }
   }
-  const double slope = std::hypot(place.slope_x, place.slope_y);
-  const auto share = static_cast<float>(std::min(1.0, slope / lattice_.costPerMetre()));
-  const double direction = std::atan2(-place.slope_y, -place.slope_x);
-  return std::max(state.h, place.cost + share * alignment_.at(state.theta - direction, state.v, state.omega));
-}
-
-float Search::heuristic(double x, double y, double theta, int v, int omega) {
-  const float far = field_.at(costmap_.geometry.cellAtUnbounded(x, y));
-  const Eigen::Vector2d p = goal_from_map_ * Eigen::Vector2d(x, y);
-  return std::max(far, table_.at(p.x(), p.y(), theta - request_.goal.theta, v, omega));
+  if (table_.covers(p.x(), p.y())) {
+    state.estimate = std::max({state.h, place.cost, near.guess});
+    return;
+  }
+  const float slope = std::sqrt(place.slope_x * place.slope_x + place.slope_y * place.slope_y);
+  const float share = std::min(1.0F, slope / static_cast<float>(lattice_.costPerMetre()));
+  const auto direction = static_cast<double>(std::atan2(-place.slope_y, -place.slope_x));
+  const float turning = alignment_.at(state.theta - direction, state.v, state.omega);
+  state.estimate = std::max(state.h, place.cost + share * turning);
 }
 
 StateId Search::addStart() {
@@ -303,7 +315,7 @@ Search::Outcome Search::run() {
     acceptGoal(start);
     return Outcome::kProved;
   }
-  preparePeopleField();
+  if (last_layer_ >= 0) preparePeopleField();
   open(start);
   while (!open_.empty()) {
     if (outOfTime()) return Outcome::kOutOfTime;
@@ -366,9 +378,8 @@ void Search::tryAction(const SearchState& from, StateId from_id, const MotionPri
   const std::uint64_t key = mergeKey(next);
   const StateId known = pool_.find(key);
   if (known != kNoState && pool_[known].g <= next.g) return;
-  next.h = heuristic(next.x, next.y, next.theta, next.v, next.omega);
+  judge(next);
   if (next.h == kInfinity || next.f() >= best_cost_) return;
-  next.estimate = estimate(next);
   if (known != kNoState && !pool_[known].done) {
     pool_[known].done = true;
     frontier_.remove(pool_[known].f());

@@ -54,8 +54,7 @@ class Search {
   void noteProgress(StateId id);
   [[nodiscard]] bool outOfTime();
   [[nodiscard]] bool proved();
-  [[nodiscard]] float heuristic(double x, double y, double theta, int v, int omega);
-  [[nodiscard]] float estimate(const SearchState& state) const;
+  void judge(SearchState& state);
   [[nodiscard]] bool atGoalPosition(const SearchState& state) const;
   [[nodiscard]] bool isGoal(const SearchState& state) const;
   [[nodiscard]] std::uint64_t mergeKey(const SearchState& state) const;

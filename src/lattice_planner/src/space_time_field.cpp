@@ -12,9 +12,10 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kCell = 0.1;             // [m]
 constexpr double kTimeStep = 0.5;         // [s]
 constexpr double kLongestHorizon = 15.0;  // [s]
-constexpr double kDetourReach = 3.0;  // [m] further from the goal than the start that is still of interest
-constexpr double kLeastReach = 1.0;   // [m] around the start
-constexpr int kPadding = 3;           // [cells] the longest move
+constexpr double kDetourReach = 3.0;      // [m] longer than the shortest way that is still of interest
+constexpr double kLeastReach = 1.0;       // [m] around the start
+constexpr double kEase = 0.97;            // few directions make a path this much too long
+constexpr int kPadding = 3;               // [cells] the longest move
 constexpr float kForbiddenRate =
     20.0F;  // [of time_weight] for a cell with a person: a start inside must get out
 
@@ -23,12 +24,12 @@ constexpr float kForbiddenRate =
 void SpaceTimeField::reset(const SpaceTimeTask& task, DistanceField& distance) {
   layOut(task);
   sampleStatic(task, distance);
-  sampleRates(task, task.start_time + steps_ * time_step_, next_rates_);
+  const auto reach = [&](int k) { return task.max_speed * k * time_step_ + kLeastReach; };
+  sampleRates(task, task.start_time + steps_ * time_step_, reach(steps_), next_rates_);
   for (int k = steps_ - 1; k >= 0; --k) {
-    sampleRates(task, task.start_time + k * time_step_, rates_);
-    const double reach = task.max_speed * k * time_step_ + kLeastReach;
+    sampleRates(task, task.start_time + k * time_step_, reach(k), rates_);
     stepBack(rates_, next_rates_, costs_[static_cast<std::size_t>(k + 1)],
-             costs_[static_cast<std::size_t>(k)], reach);
+             costs_[static_cast<std::size_t>(k)], reach(k));
     keepArrivals(task, costs_[static_cast<std::size_t>(k)]);
     rates_.swap(next_rates_);
   }
@@ -36,7 +37,8 @@ void SpaceTimeField::reset(const SpaceTimeTask& task, DistanceField& distance) {
 
 void SpaceTimeField::layOut(const SpaceTimeTask& task) {
   fine_ = task.costmap->geometry;
-  cell_ = std::max(1.0, std::round(kCell / fine_.resolution)) * fine_.resolution;
+  stride_ = std::max(1, static_cast<int>(std::lround(kCell / fine_.resolution)));
+  cell_ = stride_ * fine_.resolution;
   start_time_ = task.start_time;
   const double horizon = std::clamp(task.end_time - task.start_time, 0.0, kLongestHorizon);
   time_step_ = kTimeStep;
@@ -46,23 +48,20 @@ void SpaceTimeField::layOut(const SpaceTimeTask& task) {
   width_ = height_ = 2 * half + 1;
   center_column_ = center_row_ = half;
   // Columns lie on centres of fine cells.
-  const sarn::CellIndex start = fine_.cellAtUnbounded(task.start_x, task.start_y);
-  origin_x_ = fine_.center(start).x() - half * cell_;
-  origin_y_ = fine_.center(start).y() - half * cell_;
+  fine_start_ = fine_.cellAtUnbounded(task.start_x, task.start_y);
+  origin_x_ = fine_.center(fine_start_).x() - half * cell_;
+  origin_y_ = fine_.center(fine_start_).y() - half * cell_;
   moves_.clear();
   for (int dy = -3; dy <= 3; ++dy) {
     for (int dx = -3; dx <= 3; ++dx) {
       const double length = std::hypot(dx, dy) * cell_;
       if (length > 1.25 * task.max_speed * time_step_) continue;
       const double duration = std::max(time_step_, length / task.max_speed);
-      moves_.push_back({static_cast<std::ptrdiff_t>(dy) * width_ + dx, static_cast<float>(duration),
-                        static_cast<float>(task.time_weight * duration + task.length_weight * length)});
+      moves_.push_back(
+          {static_cast<std::ptrdiff_t>(dy) * width_ + dx, static_cast<float>(kEase * duration),
+           static_cast<float>(kEase * (task.time_weight * duration + task.length_weight * length))});
     }
   }
-}
-
-sarn::CellIndex SpaceTimeField::fineCell(int column, int row) const {
-  return fine_.cellAtUnbounded(origin_x_ + column * cell_, origin_y_ + row * cell_);
 }
 
 void SpaceTimeField::sampleStatic(const SpaceTimeTask& task, DistanceField& distance) {
@@ -71,8 +70,7 @@ void SpaceTimeField::sampleStatic(const SpaceTimeTask& task, DistanceField& dist
   costs_.resize(std::max(costs_.size(), static_cast<std::size_t>(steps_) + 1));
   for (int k = 0; k <= steps_; ++k) costs_[static_cast<std::size_t>(k)].assign(size, kInfinity);
   const double per_metre = task.time_weight / task.max_speed + task.length_weight;
-  const float start = distance.at(fine_.cellAtUnbounded(task.start_x, task.start_y));
-  distance.computeTo(start + static_cast<float>(kDetourReach * per_metre));
+  distance.computeDetours(static_cast<float>(kDetourReach * per_metre));
   std::vector<float>& last = costs_[static_cast<std::size_t>(steps_)];
   for (int row = kPadding; row < height_ - kPadding; ++row) {
     for (int column = kPadding; column < width_ - kPadding; ++column) {
@@ -84,31 +82,36 @@ void SpaceTimeField::sampleStatic(const SpaceTimeTask& task, DistanceField& dist
       const auto index =
           static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column);
       static_rates_[index] = (*task.static_rate)[cost];
-      last[index] = distance.known(cell);
+      last[index] = distance.knownGuess(cell);
     }
   }
 }
 
-void SpaceTimeField::sampleRates(const SpaceTimeTask& task, double t, std::vector<float>& rates) const {
+/// Within `reach` [m] of the start, and the longest move.
+void SpaceTimeField::sampleRates(const SpaceTimeTask& task, double t, double reach,
+                                 std::vector<float>& rates) const {
   rates = static_rates_;
   const int layer = task.costmap->layerAt(t);
   if (layer < 0) return;
-  const std::uint8_t* costs = task.costmap->layers[static_cast<std::size_t>(layer)];
-  for (int row = kPadding; row < height_ - kPadding; ++row) {
-    for (int column = kPadding; column < width_ - kPadding; ++column) {
-      const auto index =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column);
-      if (static_rates_[index] == kInfinity) continue;
+  const std::uint8_t* const costs = task.costmap->layers[static_cast<std::size_t>(layer)];
+  const float forbidden_rate = kForbiddenRate * static_cast<float>(task.time_weight);
+  const int half = std::min(static_cast<int>(reach / cell_) + kPadding + 1, center_column_ - kPadding);
+  for (int row = center_row_ - half; row <= center_row_ + half; ++row) {
+    for (int column = center_column_ - half; column <= center_column_ + half; ++column) {
+      float& rate = rates[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                          static_cast<std::size_t>(column)];
+      if (rate == kInfinity) continue;
       const std::uint8_t cost = costs[fine_.index(fineCell(column, row))];
       if (cost == 0) continue;
-      rates[index] += (*task.social_rate)[cost];
-      if ((*task.forbidden_social)[cost])
-        rates[index] += kForbiddenRate * static_cast<float>(task.time_weight);
+      const float social = (*task.social_rate)[cost];
+      rate = task.combine_with_max ? std::max(rate, social) : rate + social;
+      if ((*task.forbidden_social)[cost]) rate += forbidden_rate;
     }
   }
 }
 
-/// costs(c) = min over moves of cost(move) + duration * mean rate + next(c'), row by row.
+/// costs(c) = min over moves of cost(move) + duration * mean rate + next(c'), row by row; people make nothing
+/// cheaper than it is without them.
 void SpaceTimeField::stepBack(const std::vector<float>& rates, const std::vector<float>& next_rates,
                               const std::vector<float>& next, std::vector<float>& costs, double reach) {
   const double cells = reach / cell_;
@@ -122,6 +125,7 @@ void SpaceTimeField::stepBack(const std::vector<float>& rates, const std::vector
     const int count = last - first + 1;
     float* const out = costs.data() + begin;
     const float* const rate = rates.data() + begin;
+    const float* const alone = costs_[static_cast<std::size_t>(steps_)].data() + begin;
     for (const Move& move : moves_) {
       const float* const to = next.data() + begin + move.offset;
       const float* const to_rate = next_rates.data() + begin + move.offset;
@@ -130,6 +134,7 @@ void SpaceTimeField::stepBack(const std::vector<float>& rates, const std::vector
         out[i] = std::min(out[i], move.cost + half_duration * (rate[i] + to_rate[i]) + to[i]);
       }
     }
+    for (int i = 0; i < count; ++i) out[i] = std::max(out[i], alone[i]);
   }
 }
 

@@ -105,7 +105,7 @@ TEST(Heuristics, neverExceedTheCostToGoOfBruteForceOnRandomMaps) {
       EXPECT_LE(static_cast<double>(heuristics.field.at(*cell)), optimum.costs_to_go[i] + 1e-4)
           << "field, map " << map << ", " << p.transpose();
       EXPECT_LE(static_cast<double>(
-                    heuristics.table.at(p.x(), p.y(), s.pose.theta - task.goal.theta, s.v, s.omega)),
+                    heuristics.table.at(p.x(), p.y(), s.pose.theta - task.goal.theta, s.v, s.omega).bound),
                 optimum.costs_to_go[i] + 1e-4)
           << "table, map " << map << ", " << p.transpose() << ", turn " << s.pose.theta - task.goal.theta;
       ++compared;

@@ -24,11 +24,13 @@ class GoalTable {
   /// True where at() interpolates: within the radius of the goal.
   [[nodiscard]] bool covers(double x, double y) const { return inside(x, y); }
   [[nodiscard]] double radius() const { return radius_; }  // [m]
-  /// Lower bound for the pose in the goal's frame and lattice speeds; outside the radius from turning,
-  /// braking and distance alone.
-  [[nodiscard]] float at(double x, double y, double theta, int v, int omega) const;
-  /// As at(), but the likely value.
-  [[nodiscard]] float guess(double x, double y, double theta, int v, int omega) const;
+  struct Value {
+    float bound;  // not above the cost to go
+    float guess;  // the likely cost to go
+  };
+  /// For the pose in the goal's frame and lattice speeds; outside the radius from turning, braking and
+  /// distance alone.
+  [[nodiscard]] Value at(double x, double y, double theta, int v, int omega) const;
   /// Smallest value over all headings and speeds of the nodes around a place in the goal's frame; 0 outside.
   [[nodiscard]] float floorAt(double x, double y) const;
 
@@ -50,10 +52,10 @@ class GoalTable {
 
   [[nodiscard]] float margin() const { return static_cast<float>(time_weight_ * lattice_.timeStep()); }
   [[nodiscard]] bool inside(double x, double y) const;
-  [[nodiscard]] double wrapHeading(double theta, std::size_t count) const;
   [[nodiscard]] float interpolate(std::size_t node, float fx, float fy, std::size_t low, std::size_t high,
                                   float fraction, std::size_t speeds) const;
-  [[nodiscard]] float simpleBound(double x, double y, double theta, int v, int omega) const;
+  [[nodiscard]] float simpleBound(double x, double y, double turns, int v, int omega) const;
+  [[nodiscard]] float interpolateAt(double x, double y, double turns, int v, int omega) const;
   void buildTurnCosts(double rotation_weight);
   void buildTransitions();
   void initialize();

@@ -48,7 +48,7 @@ struct PlannerParams {
   // Search.
   double heuristic_weight = 1.3;     // >= 1; first solution by weighted A*, then the weight falls to 1
   double suboptimality_bound = 1.0;  // >= 1; stop as soon as cost <= bound * optimum is proved
-  // Improve until this many times the first solution's work is done (at least 500 expansions); 0: no such
+  // Improve until this many times the first solution's work is done (at least 200 expansions); 0: no such
   // limit.
   double improvement_effort = 0.5;
   int max_expansions = 0;     // 0: only time limits; else a bound that gives the same answer on any machine

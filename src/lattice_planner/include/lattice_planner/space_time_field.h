@@ -18,16 +18,17 @@ struct SpaceTimeTask {
   const std::array<float, 256>* social_rate = nullptr;  // [1/s]
   const std::array<bool, 256>* forbidden_static = nullptr;
   const std::array<bool, 256>* forbidden_social = nullptr;
-  double time_weight = 1.0;    // [1/s]
-  double length_weight = 0.0;  // [1/m]
-  double max_speed = 0.5;      // [m/s]
-  double goal_x = 0.0;         // [m]
-  double goal_y = 0.0;         // [m]
-  double goal_radius = 0.0;    // [m] whoever is this near has arrived, at any time
-  double start_x = 0.0;        // [m]
-  double start_y = 0.0;        // [m]
-  double start_time = 0.0;     // [s]
-  double end_time = 0.0;       // [s] from here on nothing changes with time
+  bool combine_with_max = false;  // the dearer of static and social cost counts, not their sum
+  double time_weight = 1.0;       // [1/s]
+  double length_weight = 0.0;     // [1/m]
+  double max_speed = 0.5;         // [m/s]
+  double goal_x = 0.0;            // [m]
+  double goal_y = 0.0;            // [m]
+  double goal_radius = 0.0;       // [m] whoever is this near has arrived, at any time
+  double start_x = 0.0;           // [m]
+  double start_y = 0.0;           // [m]
+  double start_time = 0.0;        // [s]
+  double end_time = 0.0;          // [s] from here on nothing changes with time
 };
 
 /// Estimate of the cost to go from a place at a time, people included: what a robot without inertia, that
@@ -56,17 +57,22 @@ class SpaceTimeField {
   void layOut(const SpaceTimeTask& task);
   void keepArrivals(const SpaceTimeTask& task, std::vector<float>& costs) const;
   void sampleStatic(const SpaceTimeTask& task, DistanceField& distance);
-  void sampleRates(const SpaceTimeTask& task, double t, std::vector<float>& rates) const;
+  void sampleRates(const SpaceTimeTask& task, double t, double reach, std::vector<float>& rates) const;
   void stepBack(const std::vector<float>& rates, const std::vector<float>& next_rates,
                 const std::vector<float>& next, std::vector<float>& costs, double reach);
   [[nodiscard]] Estimate slice(const std::vector<float>& costs, double x, double y) const;
-  [[nodiscard]] sarn::CellIndex fineCell(int column, int row) const;
+  [[nodiscard]] sarn::CellIndex fineCell(int column, int row) const {
+    return {fine_start_.x + (column - center_column_) * stride_,
+            fine_start_.y + (row - center_row_) * stride_};
+  }
 
   std::vector<Move> moves_;
   sarn::GridGeometry fine_;
-  double origin_x_ = 0.0;  // [m] centre of column 0
-  double origin_y_ = 0.0;  // [m]
-  double cell_ = 0.1;      // [m]
+  sarn::CellIndex fine_start_;  // its cell below the centre
+  int stride_ = 1;              // [fine cells] between columns
+  double origin_x_ = 0.0;       // [m] centre of column 0
+  double origin_y_ = 0.0;       // [m]
+  double cell_ = 0.1;           // [m]
   int width_ = 0;
   int height_ = 0;
   int center_column_ = 0;  // of the start

@@ -44,8 +44,8 @@ struct GridGeometry {
   }
   /// Cell that holds the point; nothing when it is outside the grid or not finite.
   [[nodiscard]] std::optional<CellIndex> cellAt(double x, double y) const {
-    const double column = std::floor((x - origin_x) / resolution);
-    const double row = std::floor((y - origin_y) / resolution);
+    const double column = (x - origin_x) / resolution;
+    const double row = (y - origin_y) / resolution;
     if (!(column >= 0.0 && row >= 0.0 && column < width && row < height)) return std::nullopt;
     return CellIndex{static_cast<int>(column), static_cast<int>(row)};
   }
