@@ -37,6 +37,7 @@ std::int64_t nanoseconds(const ros::Time& stamp) { return static_cast<std::int64
 TruthLocalization::TruthLocalization(ros::NodeHandle& nh, TruthLocalizationParams params)
     : params_(std::move(params)),
       matcher_(kQueueSize),
+      lockstep_(nh, kLockstepTopic),
       truth_subscriber_(nh.subscribe(kTruthTopic, kQueueSize, &TruthLocalization::onTruth, this)),
       odometry_subscriber_(nh.subscribe(kOdometryTopic, kQueueSize, &TruthLocalization::onOdometry, this)) {}
 
@@ -59,6 +60,7 @@ void TruthLocalization::broadcast(const PosePair& pair) {
   transform.child_frame_id = params_.odom_frame_id;
   transform.transform = sarn::toTransformMessage(mapFromOdom(pair));
   broadcaster_.sendTransform(transform);
+  lockstep_.acknowledge(transform.header.stamp);
 }
 
 }  // namespace sarn_localization

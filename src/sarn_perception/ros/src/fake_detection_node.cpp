@@ -21,7 +21,8 @@ FakeDetectionNode::FakeDetectionNode(const ros::NodeHandle& nh, const ros::NodeH
     : nh_(nh),
       params_(sarn::readParameters<FakeDetectionParams>(private_nh)),
       detector_(params_),
-      listener_(transforms_) {
+      listener_(transforms_),
+      lockstep_(nh_, kDetectionLockstepTopic) {
   publisher_ = nh_.advertise<people_msgs::People>(kPeopleTopic, 10);
   if (params_.occlusion) map_subscriber_ = nh_.subscribe(kMapTopic, 1, &FakeDetectionNode::takeMap, this);
   people_subscriber_ = nh_.subscribe(kTruePeopleTopic, 10, &FakeDetectionNode::takePeople, this);
@@ -77,6 +78,11 @@ std::optional<sarn::Pose2D> FakeDetectionNode::sensorPose(const std::string& map
 }
 
 void FakeDetectionNode::takePeople(const people_msgs::PeopleConstPtr& truth) {
+  measure(truth);
+  lockstep_.acknowledge(truth->header.stamp);
+}
+
+void FakeDetectionNode::measure(const people_msgs::PeopleConstPtr& truth) {
   if (!due(truth->header.stamp)) return;
   const auto pose = sensorPose(truth->header.frame_id, truth->header.stamp);
   if (!pose) return;

@@ -21,7 +21,8 @@ PredictionNode::PredictionNode(const ros::NodeHandle& nh, const ros::NodeHandle&
     : nh_(nh),
       params_(sarn::readParameters<PredictionParams>(private_nh)),
       predictor_(params_),
-      listener_(transforms_) {
+      listener_(transforms_),
+      lockstep_(nh_, kPredictionLockstepTopic) {
   prediction_publisher_ = nh_.advertise<sarn_msgs::PeoplePrediction>(kPredictionTopic, 10);
   marker_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>(kPredictionMarkersTopic, 10);
   if (params_.walls != "ignore")
@@ -68,6 +69,11 @@ std::optional<ros::Time> PredictionNode::usableStamp(const ros::Time& stamp) con
 }
 
 void PredictionNode::takePeople(const people_msgs::PeopleConstPtr& people) {
+  observe(people);
+  lockstep_.acknowledge(people->header.stamp);
+}
+
+void PredictionNode::observe(const people_msgs::PeopleConstPtr& people) {
   watchClock();
   const auto stamp = usableStamp(people->header.stamp);
   const auto here = stamp ? inPlanningFrame(*people) : std::nullopt;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "sarn_common_ros/lockstep_acknowledger.h"
 #include "sarn_localization/parameters.h"
 #include "sarn_localization/pose_pair_matcher.h"
 
@@ -27,6 +28,7 @@ class TruthLocalization {
 
   TruthLocalizationParams params_;
   PosePairMatcher matcher_;
+  sarn::LockstepAcknowledger lockstep_;
   tf2_ros::TransformBroadcaster broadcaster_;
   ros::Subscriber truth_subscriber_;
   ros::Subscriber odometry_subscriber_;

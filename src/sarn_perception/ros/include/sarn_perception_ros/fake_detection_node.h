@@ -10,6 +10,7 @@
 #include <deque>
 #include <optional>
 
+#include "sarn_common_ros/lockstep_acknowledger.h"
 #include "sarn_perception/fake_detector.h"
 
 namespace sarn_perception {
@@ -23,6 +24,7 @@ class FakeDetectionNode {
  private:
   void takeMap(const nav_msgs::OccupancyGridConstPtr& map);
   void takePeople(const people_msgs::PeopleConstPtr& truth);
+  void measure(const people_msgs::PeopleConstPtr& truth);
   [[nodiscard]] bool due(const ros::Time& stamp);
   [[nodiscard]] std::optional<sarn::Pose2D> sensorPose(const std::string& map_frame,
                                                        const ros::Time& stamp) const;
@@ -33,6 +35,7 @@ class FakeDetectionNode {
   FakeDetector detector_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
+  sarn::LockstepAcknowledger lockstep_;
   std::string map_frame_;                       // of the map; empty before there is one
   ros::Time last_truth_;                        // stamp
   ros::Time next_measurement_;                  // stamp

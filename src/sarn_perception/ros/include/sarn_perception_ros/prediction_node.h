@@ -9,6 +9,7 @@
 
 #include <optional>
 
+#include "sarn_common_ros/lockstep_acknowledger.h"
 #include "sarn_perception/constant_velocity_predictor.h"
 #include "sarn_perception_ros/prediction_markers.h"
 
@@ -24,6 +25,7 @@ class PredictionNode {
  private:
   void takeMap(const nav_msgs::OccupancyGridConstPtr& map);
   void takePeople(const people_msgs::PeopleConstPtr& people);
+  void observe(const people_msgs::PeopleConstPtr& people);
   [[nodiscard]] std::optional<people_msgs::People> inPlanningFrame(const people_msgs::People& people) const;
   [[nodiscard]] std::optional<ros::Time> usableStamp(const ros::Time& stamp) const;
   void watchClock();
@@ -36,6 +38,7 @@ class PredictionNode {
   ros::Time last_now_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
+  sarn::LockstepAcknowledger lockstep_;
   ros::Publisher prediction_publisher_;
   ros::Publisher marker_publisher_;
   ros::Subscriber map_subscriber_;

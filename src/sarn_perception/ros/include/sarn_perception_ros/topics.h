@@ -13,9 +13,11 @@ inline constexpr const char* kDepthLockstepTopic = "/lockstep/depthimage_to_lase
 inline constexpr const char* kTruePeopleTopic = "ground_truth/people";
 inline constexpr const char* kPeopleTopic = "people";
 inline constexpr const char* kMapTopic = "map";
+inline constexpr const char* kDetectionLockstepTopic = "/lockstep/fake_detection";
 
 // constant_velocity_prediction
 inline constexpr const char* kPredictionTopic = "people_prediction";
 inline constexpr const char* kPredictionMarkersTopic = "prediction_viz";
+inline constexpr const char* kPredictionLockstepTopic = "/lockstep/constant_velocity_prediction";
 
 }  // namespace sarn_perception
