@@ -7,6 +7,7 @@ import json
 import math
 import os
 import sys
+import threading
 import time
 from pathlib import Path
 from typing import Callable, Optional, Tuple
@@ -29,13 +30,6 @@ STATES = {getattr(NavigationStatus, name): name.lower() for name in (
 OUTCOMES = {
     getattr(EpisodeResult, name): name.lower() for name in ("SUCCESS", "CONTACT", "TIMEOUT", "ABORTED")
 }
-_ENDED = (
-    GoalStatus.SUCCEEDED,
-    GoalStatus.ABORTED,
-    GoalStatus.REJECTED,
-    GoalStatus.PREEMPTED,
-    GoalStatus.LOST,
-)
 SETTLING_TIME = 1.0  # [s] simulated and wall, from the first transform to the first goal
 
 
@@ -110,6 +104,7 @@ class ScenarioRunner:
         self._await(connected, f"no action server {topics.ACTION}: is the navigator running?")
         frames = f"{topics.MAP_FRAME} to {topics.BASE_FRAME}"
         self._await(localized, f"no transform {frames}: is localisation running?")
+        self._listener.unregister()
         # The navigator hears the transforms on a connection of its own, which nobody can see from here.
         heard, wall = rospy.get_time(), time.monotonic()
         self._await(
@@ -129,7 +124,8 @@ class ScenarioRunner:
     def _drive_to(self, index: int, pose: Pose) -> Tuple[int, str]:
         """Outcome of one goal, and the reason when it is not SUCCESS."""
         assert self._start is not None
-        self._client.send_goal(_goal(pose))
+        done = threading.Event()  # the client has let go of the goal, and may be given the next
+        self._client.send_goal(_goal(pose), done_cb=lambda _state, _result: done.set())
         clock, moved = rospy.get_time(), time.monotonic()
         while not rospy.is_shutdown():
             time.sleep(0.05)
@@ -139,10 +135,10 @@ class ScenarioRunner:
             elif wall - moved > self._patience:
                 return EpisodeResult.ABORTED, f"/clock has stood still for {self._patience:.0f} s"
             self._show(index, pose, now)
-            state = self._client.get_state()
-            if state == GoalStatus.SUCCEEDED:
-                return EpisodeResult.SUCCESS, ""
-            if state in _ENDED:
+            if done.is_set():
+                state = self._client.get_state()
+                if state == GoalStatus.SUCCEEDED:
+                    return EpisodeResult.SUCCESS, ""
                 why = self._client.get_goal_status_text() or GoalStatus.to_string(state)
                 return EpisodeResult.ABORTED, f"goal {index + 1} ({pose[0]:g}, {pose[1]:g}): {why}"
             if now - self._start > self._scenario.time_limit:
