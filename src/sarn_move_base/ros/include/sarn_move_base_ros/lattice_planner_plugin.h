@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <costmap_2d/costmap_2d_ros.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_core/base_global_planner.h>
+#include <ros/ros.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sarn_move_base/plan_continuation.h"
+#include "sarn_move_base_ros/people_source.h"
+#include "social_costmap/social_layers.h"
+
+#ifdef SARN_HAVE_MBF
+#include <mbf_costmap_core/costmap_planner.h>
+#endif
+
+namespace sarn_move_base {
+
+/// The lattice planner as move_base's global planner: static costs from the costmap, people over time from
+/// their predictions. Each pose of a plan is stamped with the time at which the robot is to be there; the
+/// last one is the goal and carries no stamp.
+class LatticePlanner : public nav_core::BaseGlobalPlanner
+#ifdef SARN_HAVE_MBF
+    ,
+                       public mbf_costmap_core::CostmapPlanner
+#endif
+{
+ public:
+  using Poses = std::vector<geometry_msgs::PoseStamped>;
+
+  void initialize(std::string name, costmap_2d::Costmap2DROS* costmap_ros) override;
+  bool makePlan(const geometry_msgs::PoseStamped& start, const geometry_msgs::PoseStamped& goal,
+                Poses& plan) override;
+  bool makePlan(const geometry_msgs::PoseStamped& start, const geometry_msgs::PoseStamped& goal, Poses& plan,
+                double& cost) override;
+
+#ifdef SARN_HAVE_MBF
+  std::uint32_t makePlan(const geometry_msgs::PoseStamped& start, const geometry_msgs::PoseStamped& goal,
+                         double tolerance, Poses& plan, double& cost, std::string& message) override;
+  bool cancel() override { return false; }  // a search ends by itself within planning_timeout
+#endif
+
+ private:
+  /// Codes of mbf_msgs/GetPath.
+  enum Outcome : std::uint32_t {
+    kSuccess = 0,
+    kInvalidStart = 52,
+    kInvalidGoal = 53,
+    kBlockedStart = 54,
+    kBlockedGoal = 55,
+    kNoPathFound = 56,
+    kNotInitialized = 60,
+    kInternalError = 62,
+  };
+  struct Answer {
+    Outcome outcome = kSuccess;
+    std::string message;  // why there is no plan
+    double cost = 0.0;
+  };
+  [[nodiscard]] Answer answer(const geometry_msgs::PoseStamped& start, const geometry_msgs::PoseStamped& goal,
+                              double tolerance, Poses& plan);
+  [[nodiscard]] std::string read(const geometry_msgs::PoseStamped& message, const char* what,
+                                 sarn::Pose2D& pose) const;
+  [[nodiscard]] sarn::TimedCostmapView observe(double now);
+  void warnOfSocialLayer() const;
+  void publish(const Poses& plan) const;
+
+  std::mutex mutex_;  // one plan at a time: move_base's service make_plan has a thread of its own
+  std::string name_;
+  costmap_2d::Costmap2DROS* costmap_ros_ = nullptr;
+  std::string frame_;
+  std::unique_ptr<PlanContinuation> planner_;  // null: not initialized
+  social_costmap::SocialLayers people_{social_costmap::SocialParams{}};
+  sarn::Grid<std::uint8_t> costs_;
+  tf2_ros::Buffer tf_;
+  std::optional<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<PeopleSource> source_;
+  ros::Publisher path_;
+};
+
+}  // namespace sarn_move_base
