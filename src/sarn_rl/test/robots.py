@@ -19,8 +19,9 @@ TURTLEBOT = ActionParams(kinematics=Kinematics.TURTLEBOT, speeds=5, headings=7)
 
 
 def params(**changes: Any) -> PolicyParams:
-    """For a turtlebot with the action set of these tests."""
-    return PolicyParams(expect=Expectation(actions=TURTLEBOT), **changes)
+    """For a turtlebot as random_checkpoint's."""
+    expect = Expectation(robot_radius=0.3, preferred_speed=1.0, actions=TURTLEBOT)
+    return PolicyParams(**{"xy_goal_tolerance": 0.3, **changes}, expect=expect)
 
 
 def random_checkpoint(

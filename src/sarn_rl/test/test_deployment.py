@@ -270,7 +270,7 @@ def test_a_parameter_that_is_unknown_or_out_of_range_is_refused() -> None:
         from_dict(PolicyParams, {"input_timout": 0.5}, "/move_base")
     with pytest.raises(ParameterError, match="planner: 'dwa' is none of"):
         from_dict(PolicyParams, {"planner": "dwa"}, "/move_base")
-    with pytest.raises(ParameterError, match=r"xy_goal_tolerance: 0.5 is not in \[0.05, 0.3\]"):
+    with pytest.raises(ParameterError, match=r"xy_goal_tolerance: 0.5 is not in \[0.05, 0.2\]"):
         from_dict(PolicyParams, {"xy_goal_tolerance": 0.5}, "/move_base")
     with pytest.raises(ParameterError, match="the base is a turtlebot"):
         from_dict(PolicyParams, {"expect": {"actions": {"kinematics": "holonomic"}}}, "/move_base")
@@ -281,7 +281,7 @@ def test_the_shipped_configuration_is_valid_and_complete() -> None:
 
     file = Path(__file__).resolve().parents[1] / "config" / "policy.yaml"
     values = yaml.safe_load(file.read_text(encoding="utf-8"))
-    from_dict(PolicyParams, values, str(file))
+    assert from_dict(PolicyParams, values, str(file)) == PolicyParams()
     from_launch = {"planner", "checkpoint", "models", "lockstep"}
     assert set(values) | from_launch == {field.name for field in dataclasses.fields(PolicyParams)}
 

@@ -61,9 +61,7 @@ class PolicyNodeTest(unittest.TestCase):
 
     @classmethod
     def node_params(cls, **changes: object) -> dict:
-        values = to_dict(params(checkpoint=str(cls.file), lockstep=True))
-        values["expect"]["actions"]["turns_in_place"] = False
-        return {**values, **changes}
+        return {**to_dict(params(checkpoint=str(cls.file), lockstep=True)), **changes}
 
     def setUp(self) -> None:
         contract = self.checkpoint.contract

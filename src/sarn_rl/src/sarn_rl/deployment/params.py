@@ -11,6 +11,9 @@ from sarn_rl.contract import Contract
 from sarn_rl.networks.params import KINDS
 
 PLANNERS = (*KINDS, "orca")
+TURTLEBOT_ACTIONS = ActionParams(
+    kinematics=Kinematics.TURTLEBOT, speeds=3, headings=7, max_turn=0.4, turns_in_place=True
+)
 
 
 @dataclass(frozen=True)
@@ -26,12 +29,10 @@ class Expectation:
     """
 
     time_step: float = 0.25
-    robot_radius: float = 0.3
+    robot_radius: float = 0.2
     people_radius: float = 0.3
-    preferred_speed: float = 1.0
-    actions: ActionParams = field(
-        default_factory=lambda: ActionParams(kinematics=Kinematics.TURTLEBOT, headings=17)
-    )
+    preferred_speed: float = 0.6
+    actions: ActionParams = field(default_factory=lambda: TURTLEBOT_ACTIONS)
     ordering: str = Contract.ordering
     units: str = Contract.units
     frame: str = Contract.frame
@@ -80,7 +81,7 @@ class PolicyParams:
     control_frequency: float = 20.0
     input_timeout: float = 0.5
     future_tolerance: float = 0.1
-    xy_goal_tolerance: float = 0.3
+    xy_goal_tolerance: float = 0.2
     hull_radius: float = 0.18
     progress_distance: float = 0.3
     progress_timeout: float = 25.0

@@ -15,12 +15,11 @@ from typing import Dict, List, Optional, Tuple
 import numpy as np
 
 from sarn_rl.deployment.deciders import Choice, Decider
-from sarn_rl.deployment.inputs import joint_state
+from sarn_rl.deployment.inputs import Body, joint_state
 from sarn_rl.deployment.recording import RecordedDecision, Recording, Truth
-from sarn_rl.joint_state import GOAL_X, GOAL_Y, JointState
+from sarn_rl.joint_state import GOAL_X, GOAL_Y, PREFERRED_SPEED, RADIUS, JointState
 from sarn_rl.observation import PERSON_FEATURES, SELF_FEATURES_WITH_THETA, Observation, wrap_angle
 
-STATIONARY = (0.0, 0.0)
 WORLD_STEP = 0.01  # [s] of the simulated base
 
 
@@ -116,8 +115,10 @@ def _true_state(
     robot, people = truth.robot_at(decision.stamp), truth.people_at(decision.stamp, names)
     if robot is None or people is None:
         return None
-    x, y = decision.state.robots[0, GOAL_X], decision.state.robots[0, GOAL_Y]
-    return joint_state(robot, people, (float(x), float(y)), decider.body)
+    row, rows = decision.state.robots[0], decision.state.people[0]
+    people_radius = float(rows[0, RADIUS]) if len(rows) else decider.body.people_radius
+    body = Body(float(row[RADIUS]), people_radius, float(row[PREFERRED_SPEED]))
+    return joint_state(robot, people, (float(row[GOAL_X]), float(row[GOAL_Y])), body)
 
 
 def _same_action(decision: RecordedDecision, choice: Choice) -> bool:
