@@ -6,7 +6,8 @@
 #include <cstring>
 #include <limits>
 
-#include "sarn_common/parameters.h"
+#include "sarn_perception/checked_params.h"
+#include "sarn_perception/depth_pixels.h"
 
 namespace sarn_perception {
 namespace {
@@ -15,33 +16,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr float kMetresPerMillimetre = 0.001F;
 constexpr std::uint16_t kNoColumn = std::numeric_limits<std::uint16_t>::max();
-
-const DepthToScanParams& checked(const DepthToScanParams& params) {
-  std::string text;
-  for (const std::string& problem : sarn::problems(params)) text += (text.empty() ? "" : "; ") + problem;
-  if (!text.empty()) throw std::invalid_argument(text);
-  return params;
-}
-
-std::size_t pixelSize(const DepthImageView& image) {
-  if (image.encoding == "16UC1") return sizeof(std::uint16_t);
-  if (image.encoding == "32FC1") return sizeof(float);
-  throw DepthInputError("depth image has encoding '" + image.encoding + "'; 16UC1 or 32FC1 is needed");
-}
-
-void checkImage(const DepthImageView& image) {
-  const std::size_t pixel = pixelSize(image);
-  if (image.big_endian) throw DepthInputError("depth image is big-endian; little-endian is needed");
-  if (image.width < 2 || image.height < 1) throw DepthInputError("depth image has no pixels");
-  const std::size_t row = pixel * static_cast<std::size_t>(image.width);
-  const std::size_t needed = image.step * static_cast<std::size_t>(image.height - 1) + row;
-  if (image.step < row || image.size < needed) {
-    throw DepthInputError("depth image holds " + std::to_string(image.size) + " bytes with step " +
-                          std::to_string(image.step) + "; " + std::to_string(image.width) + " x " +
-                          std::to_string(image.height) + " px of " + image.encoding + " need " +
-                          std::to_string(row * static_cast<std::size_t>(image.height)));
-  }
-}
 
 /// First row of the band; throws when the band does not lie in the image.
 int firstRow(int scan_height, double cy, int image_height) {
@@ -70,11 +44,11 @@ void merge(const BeamReturn& column, BeamReturn& beam) {
 
 }  // namespace
 
-DepthToScan::DepthToScan(const DepthToScanParams& params) : params_(checked(params)), gaps_(params) {}
+DepthToScan::DepthToScan(const DepthToScanParams& params) : params_(checkedParams(params)), gaps_(params) {}
 
 PlanarScan DepthToScan::convert(const DepthImageView& image, const CameraCalibration& calibration,
                                 double stamp) {
-  checkImage(image);
+  checkDepthImage(image);
   const PinholeCamera camera = pinholeCamera(calibration, image.width, image.height);
   const int first_row = firstRow(params_.scan_height, camera.cy, image.height);
   PlanarScan scan;

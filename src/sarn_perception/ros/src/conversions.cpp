@@ -54,6 +54,65 @@ sensor_msgs::LaserScan toMessage(const PlanarScan& scan, const std_msgs::Header&
   return message;
 }
 
+PlanarScan fromMessage(const sensor_msgs::LaserScan& message) {
+  PlanarScan scan;
+  scan.angle_min = message.angle_min;
+  scan.angle_max = message.angle_max;
+  scan.angle_increment = message.angle_increment;
+  scan.scan_time = message.scan_time;
+  scan.range_min = message.range_min;
+  scan.range_max = message.range_max;
+  scan.ranges = message.ranges;
+  return scan;
+}
+
+Eigen::Isometry3d isometry(const geometry_msgs::Transform& message) {
+  const auto& q = message.rotation;
+  const auto& t = message.translation;
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
+  result.translation() = Eigen::Vector3d(t.x, t.y, t.z);
+  return result;
+}
+
+people_msgs::People toPeople(const std::vector<PersonTrack>& tracks, const sarn::Pose2D& frame_from_tracks,
+                             const std_msgs::Header& header) {
+  people_msgs::People message;
+  message.header = header;
+  const sarn::Pose2D turn{0.0, 0.0, frame_from_tracks.theta};
+  for (const PersonTrack& track : tracks) {
+    sarn::Person person;
+    person.name = "person_" + std::to_string(track.id);
+    person.position = frame_from_tracks * track.filter.position();
+    person.velocity = turn * track.filter.velocity();
+    person.reliability = track.existence;
+    message.people.push_back(sarn::toMessage(person));
+  }
+  return message;
+}
+
+sarn_msgs::TrackedPeople toTracked(const std::vector<PersonTrack>& tracks, const std_msgs::Header& header) {
+  sarn_msgs::TrackedPeople message;
+  message.header = header;
+  for (const PersonTrack& track : tracks) {
+    sarn_msgs::TrackedPerson person;
+    person.id = track.id;
+    person.x = track.filter.position().x();
+    person.y = track.filter.position().y();
+    person.vx = track.filter.velocity().x();
+    person.vy = track.filter.velocity().y();
+    const Eigen::Matrix4d covariance = track.filter.covariance();
+    std::copy_n(covariance.data(), person.covariance.size(), person.covariance.begin());  // symmetric
+    person.existence = track.existence;
+    person.first_seen.fromSec(track.first_seen);
+    person.last_seen.fromSec(track.last_seen);
+    person.leg_detections = static_cast<std::uint32_t>(track.seen_by[0]);
+    person.body_detections = static_cast<std::uint32_t>(track.seen_by[1]);
+    message.people.push_back(person);
+  }
+  return message;
+}
+
 std::vector<TruePerson> truePeople(const people_msgs::People& message) {
   std::vector<TruePerson> people;
   for (const auto& entry : message.people) {

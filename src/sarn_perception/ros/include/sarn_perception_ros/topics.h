@@ -15,6 +15,11 @@ inline constexpr const char* kPeopleTopic = "people";
 inline constexpr const char* kMapTopic = "map";
 inline constexpr const char* kDetectionLockstepTopic = "/lockstep/fake_detection";
 
+// people_tracker (besides image, camera_info, scan, people and map)
+inline constexpr const char* kTrackedPeopleTopic = "tracked_people";
+inline constexpr const char* kTrackMarkersTopic = "tracked_people_viz";
+inline constexpr const char* kTrackerLockstepTopic = "/lockstep/people_tracker";
+
 // constant_velocity_prediction
 inline constexpr const char* kPredictionTopic = "people_prediction";
 inline constexpr const char* kPredictionMarkersTopic = "prediction_viz";
