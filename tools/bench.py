@@ -26,6 +26,9 @@ GOALS: Dict[str, Tuple[str, float]] = {
     "world.steps_per_s.64_worlds_5_people": (">", 500_000.0),
     "depth.frame_ms": ("<", 2.0),
     "social_layers.update_ms": ("<", 3.0),
+    "policy.decision_ms.5_humans": ("<", 1.0),
+    "policy.decision_ms.20_humans": ("<", 4.0),
+    "train.sarl_per.minutes": ("<", 15.0),
     "stack.realtime_factor": (">", 5.0),
     "stack.dropped_messages": ("<", 0.0),
 }
@@ -131,11 +134,17 @@ def stack() -> Figures:
     return figures
 
 
+def learning() -> Figures:
+    """Decisions, collection, gradient steps, one thread; minutes of the shipped training by its record."""
+    return _named_values([sys.executable, str(ROOT / "src" / "sarn_rl" / "bench" / "bench_policy.py")])
+
+
 BENCHES: Dict[str, Callable[[], Figures]] = {
     "world": world,
     "depth": depth,
     "social_layers": social_layers,
     "planner": planner,
+    "learning": learning,
     "stack": stack,
 }
 

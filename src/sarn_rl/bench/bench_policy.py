@@ -6,20 +6,28 @@ from __future__ import annotations
 
 import json
 import time
+from pathlib import Path
 from typing import Callable
 
 import numpy as np
 import torch
 
+from sarn_rl.checkpoint import Checkpoint, load_checkpoint
 from sarn_rl.contract import Contract
+from sarn_rl.declared import from_dict
 from sarn_rl.joint_state import JointState
 from sarn_rl.networks.factory import make_network
+from sarn_rl.networks.params import NetworkParams
 from sarn_rl.observation import Observation
-from sarn_rl.policies.value_policy import ValuePolicy
+from sarn_rl.training.collector import Collector
 from sarn_rl.training.learner import Learner
-from sarn_rl.training.params import LearningParams, ReplayParams
+from sarn_rl.training.params import LearningParams, ReplayParams, TrainingParams
 from sarn_rl.training.replay import ReplayMemory
 from sarn_rl.training.transitions import Transitions
+
+SHIPPED = Path(__file__).resolve().parents[1] / "models" / "sarl_per_holonomic_seed1.pt"
+# Steps of all worlds that are timed: about three episodes' worth.
+COLLECTED_STEPS = 120
 
 
 def crowd(people: int, worlds: int = 1) -> JointState:
@@ -53,20 +61,32 @@ def filled_memory(params: LearningParams) -> ReplayMemory:
     return memory
 
 
+def episodes_per_second(checkpoint: Checkpoint) -> float:
+    """Of the collection alone, with a policy that knows the way."""
+    params = from_dict(TrainingParams, checkpoint.origin["configuration"], str(SHIPPED))
+    collector = Collector(params, checkpoint.policy(), checkpoint.contract.make_lookahead(), 0)
+    random = np.random.default_rng(0)
+    finished, begin = 0, time.perf_counter()
+    for _ in range(COLLECTED_STEPS):
+        finished += len(collector.step(0.1, random))
+    return finished / (time.perf_counter() - begin)
+
+
 def main() -> None:
     torch.set_num_threads(1)
     torch.manual_seed(0)
-    contract = Contract()
-    network = make_network(contract.network, len(contract.robot_features), contract.gamma)
-    policy = ValuePolicy(network, contract.make_lookahead())
+    checkpoint = load_checkpoint(SHIPPED)
     figures = {}
     for people in (5, 20):
-        state = crowd(people)
+        state, policy = crowd(people), checkpoint.policy()
         figures[f"policy.decision_ms.{people}_humans"] = 1e3 * median_seconds(lambda: policy.act(state), 200)  # noqa: B023
     params = LearningParams()
+    network = make_network(NetworkParams(), len(checkpoint.contract.robot_features), 0.9)
     learner, memory, random = Learner(network, params), filled_memory(params), np.random.default_rng(0)
     seconds = median_seconds(lambda: learner.update(memory, 0.5, random), 200)
     figures["train.gradient_steps_per_s"] = 1.0 / seconds
+    figures["train.episodes_per_s"] = episodes_per_second(checkpoint)
+    figures["train.sarl_per.minutes"] = sum(checkpoint.origin["cpu_seconds"].values()) / 60.0
     for name, value in figures.items():
         print(json.dumps({"name": name, "value": value}))
 

@@ -15,6 +15,8 @@ from PIL import Image
 from sarn_rl.checkpoint import Checkpoint, golden_states, load_checkpoint, save_checkpoint
 from sarn_rl.cli.main import main
 from sarn_rl.contract import Contract
+from sarn_rl.declared import to_dict
+from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.networks.factory import make_network
 from sarn_rl.networks.params import NetworkParams
 
@@ -68,17 +70,23 @@ def test_evaluate_says_whether_the_policy_peeked(checkpoint: Path, capsys: pytes
 def test_table_has_the_papers_figures(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
     torch.manual_seed(4)
     contract = Contract(network=NetworkParams("cadrl"))
+    origin = {"seed": 2, "configuration": {"environment": to_dict(EnvironmentParams())}}
     save_checkpoint(
-        tmp_path / "cadrl.pt", Checkpoint(make_network(contract.network, 5, 0.9), contract, {"seed": 2})
+        tmp_path / "cadrl.pt", Checkpoint(make_network(contract.network, 5, 0.9), contract, origin)
     )
     out = tmp_path / "build" / "table.json"
     assert main(["table", "--models", str(tmp_path), "--count", "2", "--out", str(out)]) == 0
     rows = json.loads(out.read_text())
     assert {"orca", "social_force", "cadrl"} == {row["policy"] for row in rows}
-    assert [row["humans"] for row in rows if row["policy"] == "cadrl"] == [5, 10, 20]
+    ours = [row for row in rows if row["policy"] == "cadrl"]
+    assert [row["humans"] for row in ours if row["people_model"] == "orca"] == [5, 10, 20]
+    assert sum(row["people_model"] == "social_force" for row in ours) == 1
+    assert all(row["model"] == "cadrl.pt" for row in ours)
     needed = "policy humans visible crowd kinematics lookahead seed cases success collision timeout time_s"
     assert all({*needed.split(), "discomfort"} <= set(row) for row in rows)
-    assert "0.99 / 0.054 / 10.78" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert shown.count("0.99 / 0.054 / 10.78") == 1
+    assert "recorded people: skipped" in shown
 
 
 def test_row_without_a_success_is_json(tmp_path: Path, checkpoint: Path) -> None:

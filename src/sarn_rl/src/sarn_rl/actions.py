@@ -31,6 +31,9 @@ class ActionParams:
         headings: number of directions: all around (holonomic), else from -max_turn to max_turn.
         max_turn: [rad] largest change of heading in a step (unicycle, turtlebot).
         turns_in_place: adds turning on the spot to the actions of a unicycle.
+        base_acceleration: [m/s^2] of the wheels of a turtlebot's base, up and down.
+        base_delay: [s] until a turtlebot's base begins to follow a command.
+        base_width: [m] between its wheels.
     """
 
     kinematics: Kinematics = Kinematics.HOLONOMIC
@@ -38,6 +41,9 @@ class ActionParams:
     headings: int = 16
     max_turn: float = float(np.pi / 4)
     turns_in_place: bool = False
+    base_acceleration: float = 2.0
+    base_delay: float = 0.05
+    base_width: float = 0.23
 
     def problems(self) -> Tuple[str, ...]:
         found = []
@@ -47,6 +53,12 @@ class ActionParams:
             found.append(f"headings: {self.headings} is not in 1..100")
         if not 0.0 < self.max_turn <= np.pi:
             found.append(f"max_turn: {self.max_turn} is not in (0, pi] rad")
+        if not 0.0 < self.base_acceleration <= 1000.0:
+            found.append(f"base_acceleration: {self.base_acceleration} m/s^2 is not in (0, 1000]")
+        if not 0.0 <= self.base_delay <= 1.0:
+            found.append(f"base_delay: {self.base_delay} s is not in [0, 1]")
+        if not 0.0 < self.base_width <= 10.0:
+            found.append(f"base_width: {self.base_width} m is not in (0, 10]")
         if self.kinematics is not Kinematics.HOLONOMIC and self.headings % 2 == 0:
             found.append(
                 f"headings: {self.headings} is even: a robot that turns must be able to go straight on"
@@ -95,39 +107,64 @@ def decode(actions: np.ndarray, goal_bearing: np.ndarray, kinematics: Kinematics
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
 
 
-def propagate(
-    robots: np.ndarray, actions: np.ndarray, time_step: float, kinematics: Kinematics
-) -> np.ndarray:
+def propagate(robots: np.ndarray, actions: np.ndarray, time_step: float, params: ActionParams) -> np.ndarray:
     """Where actions take robots within `time_step` [s].
 
     Args:
         robots: (..., 9).
         actions: (..., 2), decoded, same leading axes.
         time_step: [s].
-        kinematics: meaning of the actions. A turtlebot's is the arc that its command describes: the limits of
-            its base are not part of the prediction.
+        params: meaning of the actions, and the base of a turtlebot.
 
     Returns:
         (..., 9) after the step.
     """
     after = robots.copy()
-    if kinematics is Kinematics.HOLONOMIC:
+    if params.kinematics is Kinematics.HOLONOMIC:
         after[..., VX], after[..., VY] = actions[..., 0], actions[..., 1]
         after[..., PX] += time_step * after[..., VX]
         after[..., PY] += time_step * after[..., VY]
         return after
-    speed = actions[..., 0]
-    turn = actions[..., 1] * (time_step if kinematics is Kinematics.TURTLEBOT else 1.0)
-    theta = robots[..., THETA] + turn
+    if params.kinematics is Kinematics.TURTLEBOT:
+        return _drive_base(after, robots, actions, time_step, params)
+    theta = robots[..., THETA] + actions[..., 1]
     after[..., THETA] = wrap_angle(theta)
-    after[..., VX], after[..., VY] = speed * np.cos(theta), speed * np.sin(theta)
-    if kinematics is Kinematics.UNICYCLE:
-        after[..., PX] += time_step * after[..., VX]
-        after[..., PY] += time_step * after[..., VY]
-        return after
-    # Chord of the arc: length v dt sinc(turn / 2), in the direction of the mean heading.
-    chord = speed * time_step * np.sinc(turn / (2.0 * np.pi))
-    mean = robots[..., THETA] + 0.5 * turn
-    after[..., PX] += chord * np.cos(mean)
-    after[..., PY] += chord * np.sin(mean)
+    after[..., VX], after[..., VY] = actions[..., 0] * np.cos(theta), actions[..., 0] * np.sin(theta)
+    after[..., PX] += time_step * after[..., VX]
+    after[..., PY] += time_step * after[..., VY]
     return after
+
+
+def _drive_base(
+    after: np.ndarray, robots: np.ndarray, actions: np.ndarray, time_step: float, params: ActionParams
+) -> np.ndarray:
+    """Each wheel's speed ramps to the commanded one after a delay.
+
+    Both wheels begin with the speed of the robot: how fast it turns is not part of a state.
+    """
+    theta = robots[..., THETA]
+    speed = robots[..., VX] * np.cos(theta) + robots[..., VY] * np.sin(theta)
+    half_difference = 0.5 * params.base_width * actions[..., 1]
+    left, left_way = _ramp(speed, actions[..., 0] - half_difference, time_step, params)
+    right, right_way = _ramp(speed, actions[..., 0] + half_difference, time_step, params)
+    turn = (right_way - left_way) / params.base_width
+    # Chord of the arc, in the direction of the mean heading.
+    chord = 0.5 * (left_way + right_way) * np.sinc(turn / (2.0 * np.pi))
+    after[..., PX] += chord * np.cos(theta + 0.5 * turn)
+    after[..., PY] += chord * np.sin(theta + 0.5 * turn)
+    after[..., THETA] = wrap_angle(theta + turn)
+    reached = 0.5 * (left + right)
+    after[..., VX], after[..., VY] = reached * np.cos(theta + turn), reached * np.sin(theta + turn)
+    return after
+
+
+def _ramp(
+    speed: np.ndarray, goal: np.ndarray, time_step: float, params: ActionParams
+) -> Tuple[np.ndarray, np.ndarray]:
+    """(speed [m/s] after the step, way [m]) of a wheel that is told to go at `goal` [m/s]."""
+    acting = max(0.0, time_step - params.base_delay)
+    change = goal - speed
+    ramp = np.minimum(np.abs(change) / params.base_acceleration, acting)
+    reached = speed + np.sign(change) * params.base_acceleration * ramp
+    way = speed * (time_step - acting) + 0.5 * (speed + reached) * ramp + reached * (acting - ramp)
+    return reached, way

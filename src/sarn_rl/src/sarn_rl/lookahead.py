@@ -88,9 +88,8 @@ class Lookahead:
             people_after: (N, P, 5) where people will be, where that is known; else they go straight on.
         """
         actions = self.actions(state)
-        kinematics = self._action_params.kinematics
         robots = np.broadcast_to(state.robots[:, None, :], (*actions.shape[:2], state.robots.shape[1]))
-        after = propagate(robots, actions, self._time_step, kinematics)
+        after = propagate(robots, actions, self._time_step, self._action_params)
         if people_after is None:
             people_after = constant_velocity(state.people, self._time_step)
         separation = self._separation(state, after, people_after)

@@ -18,6 +18,10 @@ from sarn_rl.cli.policy_options import (
 from sarn_rl.envs.cases import SPLIT_SIZES
 from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.evaluation.episodes import run_cases
+from sarn_rl.reward import RewardParams
+
+# What is measured, whatever a policy was trained with.
+BENCHMARK_REWARD = RewardParams(discomfort_scaled_by_time_step=True)
 
 
 def add_parser(commands: argparse._SubParsersAction) -> None:
@@ -47,7 +51,12 @@ def evaluated_row(
 ) -> Dict[str, Any]:
     """A row of the table."""
     size = SPLIT_SIZES[split] if count is None else count
-    episodes = run_cases(chosen.policy, world, chosen.reward, split, range(size), chosen.gamma, peek)
+    episodes = run_cases(chosen.policy, world, BENCHMARK_REWARD, split, range(size), chosen.gamma, peek)
+    return {**described(chosen, world, peek), "split": split, **episodes.summary()}
+
+
+def described(chosen: Chosen, world: EnvironmentParams, peek: bool) -> Dict[str, Any]:
+    """What a row says about its policy and world."""
     return {
         "policy": chosen.name,
         "humans": world.cases.people,
@@ -57,9 +66,8 @@ def evaluated_row(
         "kinematics": chosen.policy.kinematics.value,
         "lookahead": lookahead_name(chosen, peek),
         "discomfort_scaled_by_time_step": chosen.reward.discomfort_scaled_by_time_step,
+        "discomfort_dist": BENCHMARK_REWARD.discomfort_dist,
         "seed": chosen.seed,
-        "split": split,
-        **episodes.summary(),
     }
 
 

@@ -74,6 +74,12 @@ def checkpoint_policy(path: Path, kind: str = "") -> Chosen:
     return Chosen(checkpoint.policy(), contract.network.kind, seed, contract.reward, contract.gamma)
 
 
+def checkpoint_world(path: Path) -> EnvironmentParams:
+    """The world that a checkpoint was trained in."""
+    configuration = load_checkpoint(path).origin["configuration"]
+    return from_dict(EnvironmentParams, configuration["environment"], f"{path}: environment")
+
+
 def chosen_world(options: argparse.Namespace) -> EnvironmentParams:
     values = {
         "cases": {

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Dict, Sequence
+from typing import Any, Dict, Sequence, Union
 
 import numpy as np
 
 from sarn_rl.envs.cases import case_seed, make_case
 from sarn_rl.envs.params import EnvironmentParams
+from sarn_rl.envs.replayed import ReplayedWorlds
 from sarn_rl.envs.worlds import Outcome, Steps, Worlds
 from sarn_rl.policies.base import Policy
 from sarn_rl.reward import RewardParams, discounted
@@ -77,9 +78,22 @@ def run_cases(
     seeds = [case_seed(split, number) for number in numbers]
     worlds = Worlds(params, reward, policy.kinematics, len(seeds))
     worlds.begin(range(len(seeds)), [make_case(params.cases, seed) for seed in seeds], seeds)
-    record = _Record(
-        len(seeds), float(discounted(gamma, params.time_step, np.array(params.cases.robot_speed)))
-    )
+    discount = float(discounted(gamma, params.time_step, np.array(params.cases.robot_speed)))
+    return run_worlds(policy, worlds, discount, peek)
+
+
+def run_worlds(
+    policy: Policy, worlds: Union[Worlds, ReplayedWorlds], discount: float, peek: bool = False
+) -> Episodes:
+    """Runs episodes that have just begun, all to their ends.
+
+    Args:
+        policy: decides.
+        worlds: one episode each.
+        discount: of a step, of the returns.
+        peek: whether the policy is told where people will be after its step.
+    """
+    record = _Record(len(worlds), discount)
     while record.running.any():
         live = np.flatnonzero(record.running)
         after = worlds.people_after()[live] if peek else None

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Demonstrations of ORCA, and a value network's first regression on their returns."""
+"""What a value network regresses on first: returns of ORCA's demonstrations, or a teacher's values."""
 
 from __future__ import annotations
 
-from typing import Callable, List, NamedTuple, Tuple
+from pathlib import Path
+from typing import Callable, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import torch
 
 from sarn_rl.actions import Kinematics
+from sarn_rl.checkpoint import save_atomically
 from sarn_rl.envs.cases import case_seed, make_case
 from sarn_rl.envs.worlds import Outcome, Worlds
 from sarn_rl.lookahead import Lookahead
@@ -17,6 +19,7 @@ from sarn_rl.observation import Observation
 from sarn_rl.reward import discounted
 from sarn_rl.training.learner import DivergedError, mirror_half, set_learning_rate, tensors
 from sarn_rl.training.params import ImitationParams, TrainingParams
+from sarn_rl.training.teacher import Teacher
 from sarn_rl.training.transitions import Transitions, episode_transitions, joined, monte_carlo_returns
 
 # Demonstrations that run side by side.
@@ -28,13 +31,13 @@ class Demonstrations(NamedTuple):
     states: of all steps of all episodes.
     returns: (B,) float32, discounted, of each.
     transitions: the same for the replay memory.
-    success: share of the episodes.
+    success: share of the episodes; None where no robot was driven.
     """
 
     states: Observation
     returns: np.ndarray
     transitions: Transitions
-    success: float
+    success: Optional[float]
 
 
 def demonstrate(params: TrainingParams, lookahead: Lookahead) -> Demonstrations:
@@ -55,6 +58,24 @@ def demonstrate(params: TrainingParams, lookahead: Lookahead) -> Demonstrations:
     return Demonstrations(
         states, np.concatenate(returns).astype(np.float32), transitions, float(np.mean(successes))
     )
+
+
+def taught(params: TrainingParams, cache: Path) -> Demonstrations:
+    """A teacher's values as returns. As transitions they are complete: nothing follows that must be guessed.
+
+    Lessons do not depend on the seed of the training. They are kept in `cache`, so that a run that goes on
+    has them at once.
+    """
+    try:
+        kept = torch.load(cache, weights_only=True)
+        states, values = Observation(*(array.numpy() for array in kept["states"])), kept["values"].numpy()
+    except FileNotFoundError:
+        states, values = Teacher(params).lessons(np.random.default_rng(0))
+        arrays = [torch.from_numpy(array) for array in states]
+        save_atomically(cache, {"states": arrays, "values": torch.from_numpy(values)})
+    nothing = np.zeros(len(values), dtype=np.float32)
+    transitions = Transitions(*states, states.robot, states.people, values, nothing)
+    return Demonstrations(states, values, transitions, None)
 
 
 def step_discount(params: TrainingParams) -> float:

@@ -59,6 +59,50 @@ class ImitationParams:
 
 
 @dataclass(frozen=True)
+class TeacherParams:
+    """Regression on values of foresight: dynamic programming among people whose ways are known.
+
+    Attributes:
+        cases: training cases to foresee, from case 0; 0 for ORCA demonstrations instead.
+        people: how many, of one case after the other.
+        people_speeds: [m/s] preferred, of one case after the other.
+        cell: [m] of the grid.
+        headings: of a robot that turns.
+        horizon: [s] of foresight.
+        lesson_time: [s] of each case that states are taken from.
+        anywhere: states at random places, of each step of a case.
+        walkers: robots that follow the values with random steps in between.
+        near: states near each of them, of each step.
+        reward: what the teacher gains; it may want more room than the learner is asked for.
+    """
+
+    cases: int = 0
+    people: Tuple[int, ...] = (5,)
+    people_speeds: Tuple[float, ...] = (1.0,)
+    cell: float = 0.2
+    headings: int = 16
+    horizon: float = 16.0
+    lesson_time: float = 13.0
+    anywhere: int = 6
+    walkers: int = 4
+    near: int = 3
+    reward: RewardParams = field(default_factory=RewardParams)
+
+    def problems(self) -> Tuple[str, ...]:
+        found = list(_positive(self, ("cell", "headings", "horizon", "lesson_time", "walkers")))
+        for name in ("cases", "anywhere", "near"):
+            if getattr(self, name) < 0:
+                found.append(f"{name}: {getattr(self, name)} is not >= 0")
+        if not self.people or min(self.people) < 0:
+            found.append(f"people: {list(self.people)} is not a list of numbers >= 0")
+        if not self.people_speeds or not min(self.people_speeds) > 0.0:
+            found.append(f"people_speeds: {list(self.people_speeds)} is not a list of speeds > 0")
+        if not self.lesson_time < self.horizon:
+            found.append(f"lesson_time: {self.lesson_time} s is not below the horizon, {self.horizon} s")
+        return tuple(found)
+
+
+@dataclass(frozen=True)
 class ReplayParams:
     """Attributes:
     capacity: transitions kept.
@@ -150,7 +194,7 @@ class TrainingParams:
     """Attributes:
     seed: of weights, actions and samples; cases have their own.
     gamma: discount for a second at 1 m/s.
-    network, actions, reward, environment, imitation, replay, learning: see there.
+    network, actions, reward, environment, imitation, teacher, replay, learning: see there.
     """
 
     seed: int = 1
@@ -160,6 +204,7 @@ class TrainingParams:
     reward: RewardParams = field(default_factory=RewardParams)
     environment: EnvironmentParams = field(default_factory=EnvironmentParams)
     imitation: ImitationParams = field(default_factory=ImitationParams)
+    teacher: TeacherParams = field(default_factory=TeacherParams)
     replay: ReplayParams = field(default_factory=ReplayParams)
     learning: LearningParams = field(default_factory=LearningParams)
 

@@ -23,7 +23,7 @@ from sarn_rl.networks.factory import make_network
 from sarn_rl.policies.value_policy import ValuePolicy
 from sarn_rl.training.collector import Collector, Finished
 from sarn_rl.training.commit import source_commit
-from sarn_rl.training.imitation import Demonstrations, cosine, demonstrate, imitate
+from sarn_rl.training.imitation import Demonstrations, cosine, demonstrate, imitate, taught
 from sarn_rl.training.learner import DivergedError, Learner
 from sarn_rl.training.params import TrainingParams
 from sarn_rl.training.progress import ProgressLine
@@ -33,6 +33,7 @@ STATE_FILE = "training_state.pt"
 LAST_FILE = "last.pt"
 BEST_FILE = "best.pt"
 LOG_FILE = "log.jsonl"
+LESSONS_FILE = "lessons.pt"
 CONFIG_FILE = "config.yaml"
 
 
@@ -65,6 +66,7 @@ class Trainer:
         self._next_case = params.imitation.episodes
         self._best = (-1.0, -np.inf)
         self._seconds: Dict[str, float] = {}
+        self._cpu_seconds: Dict[str, float] = {}
         self._recent: Deque[Finished] = deque(maxlen=200)
         self._restored: Dict[str, Any] = {}
         self._prepare_directory(resume)
@@ -92,7 +94,10 @@ class Trainer:
 
     def _demonstrate(self) -> Demonstrations:
         self._progress.show("demonstrations ...")
-        demonstrations = demonstrate(self._params, self._lookahead)
+        if self._params.teacher.cases:
+            demonstrations = taught(self._params, self._directory / LESSONS_FILE)
+        else:
+            demonstrations = demonstrate(self._params, self._lookahead)
         self._log("demonstrations", samples=len(demonstrations.returns), success=demonstrations.success)
         return demonstrations
 
@@ -200,9 +205,10 @@ class Trainer:
         return episodes.summary()
 
     def _timed(self, phase: str, work: Any) -> Any:
-        begin = time.monotonic()
+        begin, begin_cpu = time.monotonic(), time.process_time()
         result = work()
         self._seconds[phase] = self._spent(phase) + time.monotonic() - begin
+        self._cpu_seconds[phase] = self._cpu_seconds.get(phase, 0.0) + time.process_time() - begin_cpu
         return result
 
     def _spent(self, phase: str) -> float:
@@ -217,6 +223,8 @@ class Trainer:
     def _prepare_directory(self, resume: bool) -> None:
         self._directory.mkdir(parents=True, exist_ok=True)
         state = self._directory / STATE_FILE
+        if not resume:
+            (self._directory / LESSONS_FILE).unlink(missing_ok=True)
         if resume and state.exists():
             self._restore(state)
             return
@@ -242,6 +250,7 @@ class Trainer:
             "next_case": self._next_case,
             "best": list(self._best),
             "seconds": dict(self._seconds),
+            "cpu_seconds": dict(self._cpu_seconds),
         }
         save_atomically(self._directory / STATE_FILE, document)
 
@@ -257,7 +266,7 @@ class Trainer:
         self._random.bit_generator.state = state["random"]
         self._episodes, self._next_case = state["episodes"], state["next_case"]
         self._best = (state["best"][0], state["best"][1])
-        self._seconds = state["seconds"]
+        self._seconds, self._cpu_seconds = state["seconds"], state["cpu_seconds"]
         memory = state["memory"]
         memory["arrays"] = [array.numpy() for array in memory["arrays"]]
         self._restored = {"memory": memory}
@@ -271,6 +280,7 @@ class Trainer:
             "episodes": self._episodes,
             "updates": self._learner.updates,
             "seconds": dict(self._seconds),
+            "cpu_seconds": dict(self._cpu_seconds),
             "validation": dict(validation),
         }
         save_checkpoint(self._directory / name, Checkpoint(self._learner.target, self._contract, origin))
