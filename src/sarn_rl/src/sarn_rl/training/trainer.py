@@ -63,7 +63,7 @@ class Trainer:
         self._learner = Learner(self._network, params.learning)
         self._policy = ValuePolicy(self._learner.target, self._lookahead)
         self._episodes = 0
-        self._next_case = params.imitation.episodes
+        self._next_case = params.teacher.cases or params.imitation.episodes
         self._best = (-1.0, -np.inf)
         self._seconds: Dict[str, float] = {}
         self._cpu_seconds: Dict[str, float] = {}
