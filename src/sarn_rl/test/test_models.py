@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from sarn_rl.checkpoint import load_checkpoint
-from sarn_rl.envs.cases import CaseParams
-from sarn_rl.envs.params import EnvironmentParams
+from sarn_rl.cli.policy_options import checkpoint_world
 from sarn_rl.evaluation.episodes import run_cases
 
 MODELS = sorted((Path(__file__).resolve().parents[1] / "models").glob("*.pt"))
@@ -33,7 +32,8 @@ def test_model_crosses_crowds_of_its_training(path: Path) -> None:
     """The first 40 test cases; the whole table takes longer (make table)."""
     checkpoint = load_checkpoint(path)
     contract = checkpoint.contract
-    world = EnvironmentParams(cases=CaseParams(people=5, robot_speed=contract.preferred_speed))
+    world = checkpoint_world(path)
+    assert world.cases.people == 5
     result = run_cases(
         checkpoint.policy(), world, contract.reward, "test", range(40), contract.gamma
     ).summary()

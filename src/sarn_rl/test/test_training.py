@@ -28,7 +28,12 @@ from sarn_rl.training.params import (
 )
 from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, LOG_FILE, STATE_FILE, Trainer
 
-CONFIGS = sorted((Path(__file__).resolve().parents[1] / "config").glob("*.yaml"))
+# The policy node's configuration lies beside those of training.
+CONFIGS = sorted(
+    path
+    for path in (Path(__file__).resolve().parents[1] / "config").glob("*.yaml")
+    if "\nlearning:" in path.read_text(encoding="utf-8")
+)
 
 
 @pytest.fixture(autouse=True)

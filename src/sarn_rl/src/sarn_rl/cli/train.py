@@ -18,6 +18,7 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("--out", type=Path, required=True, help="directory of the run")
     parser.add_argument("--seed", type=int, help="instead of the configuration's")
     parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint in --out")
+    parser.add_argument("--begin-with", type=Path, help="checkpoint whose weights to go on from")
     parser.set_defaults(run=run)
 
 
@@ -27,5 +28,5 @@ def run(options: argparse.Namespace) -> int:
         if not 0 <= options.seed < 2**32:
             raise ValueError(f"--seed: {options.seed} is not in 0..2^32-1")
         params = dataclasses.replace(params, seed=options.seed)
-    Trainer(params, options.out, options.resume, sys.stderr).run()
+    Trainer(params, options.out, options.resume, sys.stderr, options.begin_with).run()
     return 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass
-from typing import Sequence
+from typing import Optional, Sequence
 
 import numpy as np
 
@@ -52,6 +52,7 @@ class Worlds:
         kinematics: of the robot.
         count: N.
         robot_safety_space: [m] that the robot's own ORCA adds to every radius.
+        most_people: of a case; None: as many as params say.
     """
 
     def __init__(
@@ -61,12 +62,13 @@ class Worlds:
         kinematics: Kinematics,
         count: int,
         robot_safety_space: float = 0.0,
+        most_people: Optional[int] = None,
     ) -> None:
         self.params, self.kinematics = params, kinematics
         self._reward = reward
         self._batch = kobuki_sim.WorldBatch(
             count,
-            params.cases.people,
+            params.cases.people if most_people is None else most_people,
             time_step=params.time_step,
             time_limit=params.time_limit,
             robot_kinematics=kinematics.value,
@@ -75,7 +77,7 @@ class Worlds:
             people_safety_space=params.people_safety_space,
             safety_space=robot_safety_space,
         )
-        self._present = np.ones((count, params.cases.people), dtype=bool)
+        self._present = np.zeros((count, self._batch.n_people), dtype=bool)
 
     def __len__(self) -> int:
         return len(self._present)
@@ -88,23 +90,26 @@ class Worlds:
         starts = np.stack([case.robot_start for case in cases])
         goals = np.stack([case.robot_goal for case in cases])
         way = goals - starts
+        counts = np.array([len(case.people_start) for case in cases])
+        self._present[list(worlds)] = np.arange(self._batch.n_people) < counts[:, None]
         self._batch.reset(
             starts,
             goals,
-            np.stack([case.people_start for case in cases]),
-            np.stack([case.people_goal for case in cases]),
+            np.stack([_padded(case.people_start, self._batch.n_people) for case in cases]),
+            np.stack([_padded(case.people_goal, self._batch.n_people) for case in cases]),
             worlds=list(worlds),
             robot_theta=np.arctan2(way[:, 1], way[:, 0]),
             robot_radius=people.robot_radius,
             robot_speed=people.robot_speed,
             people_radius=people.people_radius,
             people_speed=people.people_speed,
+            people_count=counts.tolist(),
             seeds=[int(seed) for seed in seeds],
         )
 
     @property
     def state(self) -> JointState:
-        return JointState(self._batch.robots, self._batch.people, self._present)
+        return JointState(self._batch.robots, self._batch.people, self._present.copy())
 
     @property
     def times(self) -> np.ndarray:
@@ -133,3 +138,8 @@ class Worlds:
         rewards = step_reward(separation, reached, self.params.time_step, self._reward)
         close = (separation < self._reward.discomfort_dist) & ~collision & ~reached
         return Steps(rewards, outcomes, separation, close)
+
+
+def _padded(places: np.ndarray, most: int) -> np.ndarray:
+    """(most, 2) of (P, 2) places; the rest are not looked at."""
+    return np.concatenate([places, np.zeros((most - len(places), 2))])

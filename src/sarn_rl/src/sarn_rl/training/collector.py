@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import List
 
 import numpy as np
@@ -44,7 +44,10 @@ class Collector:
         self._params, self._policy, self._lookahead = params, policy, lookahead
         self._discount = step_discount(params)
         count = params.learning.worlds
-        self._worlds = Worlds(params.environment, params.reward, policy.kinematics, count)
+        self._crowds = params.learning.people or (params.environment.cases.people,)
+        self._worlds = Worlds(
+            params.environment, params.reward, policy.kinematics, count, most_people=max(self._crowds)
+        )
         self._histories: List[_History] = [_History() for _ in range(count)]
         self.next_case = first_case
         self._begin(list(range(count)))
@@ -86,9 +89,12 @@ class Collector:
     def _begin(self, worlds: List[int]) -> None:
         if not worlds:
             return
-        seeds = [case_seed("training", self.next_case + k) for k in range(len(worlds))]
+        numbers = range(self.next_case, self.next_case + len(worlds))
         self.next_case += len(worlds)
-        cases = [make_case(self._params.environment.cases, seed) for seed in seeds]
+        seeds = [case_seed("training", number) for number in numbers]
+        crowds = [self._crowds[number % len(self._crowds)] for number in numbers]
+        params = self._params.environment.cases
+        cases = [make_case(replace(params, people=people), seed) for people, seed in zip(crowds, seeds)]
         self._worlds.begin(worlds, cases, seeds)
         seen = self._lookahead.encode(self._worlds.state)
         for world in worlds:

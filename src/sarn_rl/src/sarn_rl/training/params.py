@@ -146,6 +146,7 @@ class LearningParams:
         validation_episodes: episodes between validations (on the 100 validation cases).
         checkpoint_episodes: episodes between checkpoints.
         warmup_episodes: episodes before the first gradient step.
+        people: how many, of one training case after the other; none: as in the environment.
     """
 
     episodes: int = 4000
@@ -165,6 +166,7 @@ class LearningParams:
     validation_episodes: int = 500
     checkpoint_episodes: int = 500
     warmup_episodes: int = 0
+    people: Tuple[int, ...] = ()
 
     def problems(self) -> Tuple[str, ...]:
         names = (
@@ -183,6 +185,8 @@ class LearningParams:
         for name in ("episodes", "updates_per_step", "warmup_episodes"):
             if getattr(self, name) < 0:
                 found.append(f"{name}: {getattr(self, name)} is not >= 0")
+        if min(self.people, default=0) < 0:
+            found.append(f"people: {list(self.people)} is not a list of numbers >= 0")
         for name in ("epsilon_start", "epsilon_end", "target_rate"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 found.append(f"{name}: {getattr(self, name)} is not in 0..1")

@@ -12,7 +12,7 @@ from typing import Any, Dict, Optional, Tuple
 import numpy as np
 
 from sarn_rl.training.params import ReplayParams
-from sarn_rl.training.transitions import Transitions
+from sarn_rl.training.transitions import Transitions, padded
 
 # Priority of an error of zero, so that everything may come again.
 LEAST_PRIORITY = 1e-3
@@ -84,6 +84,7 @@ class ReplayMemory:
         count = len(transitions)
         if count == 0:
             return
+        transitions = padded(transitions, self._arrays.people.shape[1])
         if count > self._params.capacity:
             transitions = Transitions(*(array[-self._params.capacity :] for array in transitions))
             count = self._params.capacity

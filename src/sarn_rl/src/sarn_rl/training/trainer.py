@@ -8,13 +8,13 @@ import sys
 import time
 from collections import deque
 from pathlib import Path
-from typing import Any, Deque, Dict, List, TextIO
+from typing import Any, Deque, Dict, List, Optional, TextIO
 
 import numpy as np
 import torch
 import yaml
 
-from sarn_rl.checkpoint import Checkpoint, CheckpointError, save_atomically, save_checkpoint
+from sarn_rl.checkpoint import Checkpoint, CheckpointError, load_checkpoint, save_atomically, save_checkpoint
 from sarn_rl.declared import differences, to_dict
 from sarn_rl.envs.cases import SPLIT_SIZES
 from sarn_rl.envs.worlds import Outcome
@@ -28,6 +28,7 @@ from sarn_rl.training.learner import DivergedError, Learner
 from sarn_rl.training.params import TrainingParams
 from sarn_rl.training.progress import ProgressLine
 from sarn_rl.training.replay import ReplayMemory
+from sarn_rl.training.transitions import Transitions, padded
 
 STATE_FILE = "training_state.pt"
 LAST_FILE = "last.pt"
@@ -48,10 +49,16 @@ class Trainer:
         directory: where to; made if missing.
         resume: goes on from training_state.pt if it is there.
         out: where progress is shown.
+        begin_with: checkpoint whose weights are taken instead of imitating.
     """
 
     def __init__(
-        self, params: TrainingParams, directory: Path, resume: bool = False, out: TextIO = sys.stderr
+        self,
+        params: TrainingParams,
+        directory: Path,
+        resume: bool = False,
+        out: TextIO = sys.stderr,
+        begin_with: Optional[Path] = None,
     ) -> None:
         self._params, self._directory = params, Path(directory)
         self._progress = ProgressLine(out)
@@ -69,6 +76,7 @@ class Trainer:
         self._cpu_seconds: Dict[str, float] = {}
         self._recent: Deque[Finished] = deque(maxlen=200)
         self._restored: Dict[str, Any] = {}
+        self._begun_with = None if begin_with is None else load_checkpoint(begin_with)
         self._prepare_directory(resume)
 
     def run(self) -> Dict[str, Any]:
@@ -76,11 +84,14 @@ class Trainer:
         with _event_writer(self._directory) as events:
             self._events = events
             demonstrations = self._timed("demonstrations", self._demonstrate)
-            memory = ReplayMemory(self._params.replay, demonstrations.transitions)
+            memory = ReplayMemory(self._params.replay, self._example(demonstrations.transitions))
             if self._restored:
                 memory.restore(self._restored.pop("memory"))
             else:
-                self._timed("imitation", lambda: self._imitate(demonstrations))
+                if self._begun_with is None:
+                    self._timed("imitation", lambda: self._imitate(demonstrations))
+                else:
+                    self._take_over(self._begun_with)
                 if self._params.imitation.keep:
                     memory.add(demonstrations.transitions)
                 self._validate()
@@ -92,6 +103,12 @@ class Trainer:
 
     # --- Phases
 
+    def _take_over(self, checkpoint: Checkpoint) -> None:
+        """Another run's weights; its training cases are not met again."""
+        self._network.load_state_dict(checkpoint.network.state_dict())
+        self._learner.refresh_target()
+        self._next_case += int(checkpoint.origin["episodes"])
+
     def _demonstrate(self) -> Demonstrations:
         self._progress.show("demonstrations ...")
         if self._params.teacher.cases:
@@ -100,6 +117,11 @@ class Trainer:
             demonstrations = demonstrate(self._params, self._lookahead)
         self._log("demonstrations", samples=len(demonstrations.returns), success=demonstrations.success)
         return demonstrations
+
+    def _example(self, transitions: Transitions) -> Transitions:
+        """One of them, with as many rows of people as there may be in an episode."""
+        most = max((*self._params.learning.people, self._params.environment.cases.people))
+        return padded(Transitions(*(array[:1] for array in transitions)), most)
 
     def _imitate(self, demonstrations: Demonstrations) -> None:
         def report(epoch: int, loss: float) -> None:
@@ -282,6 +304,7 @@ class Trainer:
             "seconds": dict(self._seconds),
             "cpu_seconds": dict(self._cpu_seconds),
             "validation": dict(validation),
+            "begun_with": {} if self._begun_with is None else dict(self._begun_with.origin),
         }
         save_checkpoint(self._directory / name, Checkpoint(self._learner.target, self._contract, origin))
 

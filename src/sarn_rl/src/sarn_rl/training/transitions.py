@@ -98,3 +98,15 @@ def monte_carlo_returns(rewards: np.ndarray, discount: float) -> np.ndarray:
 
 def joined(parts: Sequence[Transitions]) -> Transitions:
     return Transitions(*(np.concatenate(arrays) for arrays in zip(*parts)))
+
+
+def padded(transitions: Transitions, people: int) -> Transitions:
+    """With at least so many rows of people; those added are nobody."""
+    missing = max(0, people - transitions.people.shape[1])
+    rows = ((0, 0), (0, missing), (0, 0))
+    # Not _replace(): it counts fields with len(), which is the number of samples here.
+    fields = transitions._asdict()
+    for name in ("people", "next_people"):
+        fields[name] = np.pad(fields[name], rows)
+    fields["present"] = np.pad(fields["present"], rows[:2])
+    return Transitions(**fields)
