@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sarn_common/parameters.h"
+#include "sarn_localization/localization_params.h"
 
 namespace sarn_localization {
 namespace {
@@ -19,6 +20,18 @@ void expectShippedYamlMatches(const std::string& file) {
 TEST(Parameters, shippedYamlNamesEveryField) {
   expectShippedYamlMatches<MapServerParams>("config/map_server.yaml");
   expectShippedYamlMatches<TruthLocalizationParams>("config/truth_localization.yaml");
+  expectShippedYamlMatches<LocalizationParams>("config/localization.yaml");
+}
+
+TEST(Parameters, contradictionsOfLocalizationAreProblems) {
+  EXPECT_TRUE(sarn::problems(LocalizationParams{}).empty());
+  LocalizationParams params;
+  params.odom_frame_id = params.base_frame_id;
+  params.min_particles = params.max_particles + 1;
+  params.laser_z_hit = 0.5;
+  params.laser_min_range = params.laser_max_range;
+  params.recovery_alpha_slow = params.recovery_alpha_fast;
+  EXPECT_EQ(sarn::problems(params).size(), 5U);
 }
 
 TEST(Parameters, emptyAndEqualFramesAreProblems) {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "sarn_common/pose2d.h"
+
+namespace sarn_localization {
+
+/// A planar scan as a sensor delivers it; ranges may hold NaN and Inf.
+struct PlanarScan {
+  double angle_min = 0.0;        // [rad] of the first beam, in the sensor's frame
+  double angle_increment = 0.0;  // [rad] from beam to beam, not 0
+  double range_min = 0.0;        // [m] shorter returns are not valid
+  double range_max = 0.0;        // [m] longer returns are not valid
+  std::vector<float> ranges;     // [m]
+};
+
+/// A return.
+struct Beam {
+  Eigen::Vector2d end;        // [m] where it ended, in base
+  Eigen::Vector2d direction;  // unit, in base
+  double range = 0.0;         // [m]
+};
+
+/// The returns of one scan that localisation looks at.
+struct ScanBeams {
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // [m] of the sensor, in base
+  std::vector<Beam> beams;
+};
+
+struct BeamLimits {
+  std::size_t max_beams = 60;
+  double min_range = 0.0;   // [m]
+  double max_range = 6.0;   // [m]
+  double range_bias = 0.0;  // [1/m] a range r is measured range_bias * r^2 too short
+};
+
+/// At most max_beams returns within both the sensor's and our limits, evenly spread over those there are,
+/// with the bias taken off. What is not finite is left out.
+///
+/// A scan from a band of rows of a structured-light camera is biased: the nearest of ten rows wins, each with
+/// a noise that grows with the square of the range (Nguyen et al. 2012).
+[[nodiscard]] ScanBeams selectBeams(const PlanarScan& scan, const sarn::Pose2D& base_from_sensor,
+                                    const BeamLimits& limits);
+
+}  // namespace sarn_localization

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sarn_localization/monte_carlo_localizer.h"
+
+#include <mrpt/random/RandomGenerators.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "mrpt_filter.h"
+#include "sarn_common/parameters.h"
+#include "sarn_localization/distance_filter.h"
+#include "sarn_localization/likely_poses.h"
+#include "sarn_localization/motion_model.h"
+#include "sarn_localization/recovery_monitor.h"
+
+namespace sarn_localization {
+namespace {
+
+constexpr std::size_t kFewestBeams = 5;     // a scan with fewer returns says nothing
+constexpr std::size_t kPolled = 20;         // particles that the distance filter asks
+constexpr double kLeastRandomShare = 0.15;  // [1] less is noise of the averages
+constexpr double kGreatestRandomShare =
+    0.1;  // [1] of the belief at once: less than the distance filter asks for
+constexpr std::size_t kGlobalCandidates = 5;  // global localisation looks at this many times the candidates
+
+const LocalizationParams& checked(const LocalizationParams& params) {
+  std::string text;
+  for (const std::string& problem : sarn::problems(params)) text += (text.empty() ? "" : "; ") + problem;
+  if (!text.empty()) throw std::invalid_argument("localization: " + text);
+  return params;
+}
+
+/// A matrix whose product with its transpose is the covariance, which may be singular.
+Eigen::Matrix3d squareRoot(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+}  // namespace
+
+struct MonteCarloLocalizer::Impl {
+  enum class Knowledge { kNothing, kBelief, kAnywhere };
+
+  explicit Impl(const LocalizationParams& p)
+      : params(checked(p)),
+        filter(params),
+        monitor(params.recovery_alpha_slow, params.recovery_alpha_fast),
+        random(static_cast<std::uint64_t>(params.random_seed)) {
+    // A generator anew, as randomize() would leave half a pair of normal draws in it.
+    mrpt::random::getRandomGenerator() =
+        mrpt::random::CRandomGenerator(static_cast<std::uint32_t>(params.random_seed));
+  }
+
+  void setPose(const PoseEstimate& robot_in_map, const sarn::Pose2D& robot_in_odom) {
+    const Eigen::Matrix3d root = squareRoot(robot_in_map.covariance);
+    std::normal_distribution<double> normal;
+    std::vector<sarn::Pose2D> poses(static_cast<std::size_t>(params.max_particles));
+    for (sarn::Pose2D& pose : poses) {
+      const Eigen::Vector3d z(normal(random), normal(random), normal(random));
+      const Eigen::Vector3d d = root * z;
+      pose = {robot_in_map.pose.x + d.x(), robot_in_map.pose.y + d.y(),
+              sarn::wrapAngle(robot_in_map.pose.theta + d.z())};
+    }
+    filter.setParticles(poses);
+    knowledge = Knowledge::kBelief;
+    monitor.forgetFast();
+    odom_at_update = robot_in_odom;
+    estimate = robot_in_map;
+    force_update = true;
+  }
+
+  [[nodiscard]] bool movedEnough(const sarn::Pose2D& motion) const {
+    return motion.position().norm() >= params.update_min_d || std::abs(motion.theta) >= params.update_min_a;
+  }
+
+  /// Poses of some particles, drawn by weight.
+  [[nodiscard]] std::vector<sarn::Pose2D> poll() {
+    const std::vector<WeightedPose> all = filter.weightedPoses();
+    std::vector<double> weights(all.size());
+    std::transform(all.begin(), all.end(), weights.begin(), [](const WeightedPose& p) { return p.weight; });
+    std::discrete_distribution<std::size_t> draw(weights.begin(), weights.end());
+    std::vector<sarn::Pose2D> poses(kPolled);
+    for (sarn::Pose2D& pose : poses) pose = all[draw(random)].pose;
+    return poses;
+  }
+
+  [[nodiscard]] ScanBeams withoutPeople(const ScanBeams& scan, const sarn::Pose2D& motion) {
+    if (!params.do_beamskip) return scan;
+    std::vector<sarn::Pose2D> belief = poll();
+    for (sarn::Pose2D& pose : belief) pose = pose * motion;
+    return withoutShortBeams(
+        scan, belief, *walls,
+        {params.beam_skip_distance, params.beam_skip_threshold, params.beam_skip_error_threshold});
+  }
+
+  void spreadOverMap(const ScanBeams& scan) {
+    const auto candidates = kGlobalCandidates * static_cast<std::size_t>(params.recovery_candidates);
+    filter.setParticles(drawLikelyPoses(*walls, params, scan, candidates,
+                                        static_cast<std::size_t>(params.max_particles), random));
+    knowledge = Knowledge::kBelief;
+    monitor.forgetFast();
+  }
+
+  /// Gives a share of the belief to poses that the scan makes likely.
+  void addRandomParticles(double share, const ScanBeams& scan) {
+    if (share < kLeastRandomShare) return;
+    filter.addParticles(
+        drawLikelyPoses(*walls, params, scan, static_cast<std::size_t>(params.recovery_candidates),
+                        static_cast<std::size_t>(params.min_particles), random),
+        std::min(share, kGreatestRandomShare));
+  }
+
+  bool addScan(const sarn::Pose2D& robot_in_odom, const ScanBeams& scan) {
+    if (!walls || knowledge == Knowledge::kNothing || scan.beams.size() < kFewestBeams) return false;
+    const bool anywhere = knowledge == Knowledge::kAnywhere;
+    const sarn::Pose2D motion = anywhere ? sarn::Pose2D{} : sarn::inverse(odom_at_update) * robot_in_odom;
+    if (!anywhere && !force_update && !movedEnough(motion)) return false;
+    if (anywhere) spreadOverMap(scan);
+
+    const ScanLikelihood likelihood(params, anywhere ? scan : withoutPeople(scan, motion));
+    const MotionNoise noise{params.odom_alpha1, params.odom_alpha2, params.odom_alpha3, params.odom_alpha4};
+    const double explained = filter.update(motionBelief(motion, noise), likelihood, *walls);
+    const double share = likelihood.scan().beams.empty() ? 0.0 : monitor.add(explained);
+    addRandomParticles(share, likelihood.scan());
+
+    estimate = heaviestCluster(filter.weightedPoses());
+    odom_at_update = robot_in_odom;
+    force_update = false;
+    status = {likelihood.scan().beams.size(),
+              scan.beams.size() - likelihood.scan().beams.size(),
+              explained,
+              monitor.slow(),
+              monitor.fast(),
+              share};
+    return true;
+  }
+
+  LocalizationParams params;
+  MrptFilter filter;
+  RecoveryMonitor monitor;
+  std::mt19937_64 random;
+  std::optional<WallDistance> walls;
+  Knowledge knowledge = Knowledge::kNothing;
+  bool force_update = false;
+  sarn::Pose2D odom_at_update;  // robot in odom
+  std::optional<PoseEstimate> estimate;
+  LocalizerStatus status;
+};
+
+MonteCarloLocalizer::MonteCarloLocalizer(const LocalizationParams& params)
+    : impl_(std::make_unique<Impl>(params)) {}
+MonteCarloLocalizer::~MonteCarloLocalizer() = default;
+MonteCarloLocalizer::MonteCarloLocalizer(MonteCarloLocalizer&&) noexcept = default;
+MonteCarloLocalizer& MonteCarloLocalizer::operator=(MonteCarloLocalizer&&) noexcept = default;
+
+void MonteCarloLocalizer::setMap(const sarn::OccupancyMap& map) { impl_->walls = WallDistance(map); }
+bool MonteCarloLocalizer::hasMap() const { return impl_->walls.has_value(); }
+
+void MonteCarloLocalizer::setPose(const PoseEstimate& robot_in_map, const sarn::Pose2D& robot_in_odom) {
+  impl_->setPose(robot_in_map, robot_in_odom);
+}
+
+void MonteCarloLocalizer::localizeGlobally() {
+  impl_->knowledge = Impl::Knowledge::kAnywhere;
+  impl_->estimate.reset();
+}
+
+bool MonteCarloLocalizer::addScan(const sarn::Pose2D& robot_in_odom, const ScanBeams& scan) {
+  return impl_->addScan(robot_in_odom, scan);
+}
+
+std::optional<PoseEstimate> MonteCarloLocalizer::estimate() const { return impl_->estimate; }
+
+std::optional<sarn::Pose2D> MonteCarloLocalizer::mapFromOdom() const {
+  if (!impl_->estimate) return std::nullopt;
+  return impl_->estimate->pose * sarn::inverse(impl_->odom_at_update);
+}
+
+std::vector<WeightedPose> MonteCarloLocalizer::particles() const {
+  return impl_->knowledge == Impl::Knowledge::kBelief ? impl_->filter.weightedPoses()
+                                                      : std::vector<WeightedPose>{};
+}
+
+const LocalizerStatus& MonteCarloLocalizer::status() const { return impl_->status; }
+
+}  // namespace sarn_localization

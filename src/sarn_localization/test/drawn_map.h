@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sarn_common/map_io.h"
+#include "sarn_localization/scan_beams.h"
+#include "sarn_localization/wall_distance.h"
+
+namespace sarn_localization {
+
+/// A map drawn in rows from the top: '#' occupied, '.' free, '?' unknown; origin (0, 0).
+inline sarn::OccupancyMap drawnMap(const std::vector<std::string>& rows, double resolution) {
+  const auto height = static_cast<int>(rows.size());
+  const auto width = static_cast<int>(rows.front().size());
+  sarn::OccupancyMap map({width, height, resolution, 0.0, 0.0}, sarn::kMapUnknown);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const char c = rows[static_cast<std::size_t>(height - 1 - y)][static_cast<std::size_t>(x)];
+      map.at({x, y}) = c == '#' ? sarn::kMapOccupied : c == '.' ? sarn::kMapFree : sarn::kMapUnknown;
+    }
+  }
+  return map;
+}
+
+/// 8 m x 6 m, with a niche and a pillar so that no two places look alike; the same in cells of 0.1 m.
+inline sarn::OccupancyMap unevenRoom() {
+  constexpr double kCell = 0.05;
+  sarn::OccupancyMap map({160, 120, kCell, 0.0, 0.0}, sarn::kMapFree);
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      const bool outer = x < 2 || y < 2 || x > 157 || y > 117;
+      const bool block = x >= 102 && y >= 82;
+      const bool pillar = x >= 42 && x < 52 && y >= 32 && y < 38;
+      const bool ledge = x < 30 && y >= 98;
+      if (outer || block || pillar || ledge) map.at({x, y}) = sarn::kMapOccupied;
+    }
+  }
+  return map;
+}
+
+/// What a sensor without noise at `map_from_sensor` measures: `count` beams over `width` [rad], ahead.
+inline PlanarScan idealScan(const WallDistance& walls, const sarn::Pose2D& map_from_sensor, double width,
+                            std::size_t count) {
+  PlanarScan scan{-0.5 * width, width / static_cast<double>(count - 1), 0.1, 20.0, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle =
+        map_from_sensor.theta + scan.angle_min + static_cast<double>(i) * scan.angle_increment;
+    scan.ranges.push_back(static_cast<float>(
+        walls.castRay(map_from_sensor.position(), {std::cos(angle), std::sin(angle)}, 20.0)));
+  }
+  return scan;
+}
+
+}  // namespace sarn_localization
