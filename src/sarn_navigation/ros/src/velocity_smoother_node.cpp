@@ -11,7 +11,8 @@ namespace sarn_navigation {
 VelocitySmootherNode::VelocitySmootherNode(const ros::NodeHandle&, const ros::NodeHandle& private_nh)
     : private_nh_(private_nh),
       params_(sarn::readParameters<VelocitySmootherParams>(private_nh_)),
-      smoother_(params_) {
+      smoother_(params_),
+      lockstep_(private_nh_, topics::kSmootherLockstep) {
   output_ = private_nh_.advertise<geometry_msgs::Twist>(topics::kSmootherOutput, 10);
   subscribe();
   timer_ = private_nh_.createTimer(ros::Duration(1.0 / params_.frequency),
@@ -49,8 +50,10 @@ void VelocitySmootherNode::onFeedback(const geometry_msgs::Twist& feedback, cons
 }
 
 void VelocitySmootherNode::onTimer() {
-  const auto command = smoother_.update(ros::Time::now().toSec());
+  const ros::Time now = ros::Time::now();
+  const auto command = smoother_.update(now.toSec());
   if (command) output_.publish(sarn::toMessage(*command));
+  lockstep_.acknowledge(now);
 }
 
 }  // namespace sarn_navigation

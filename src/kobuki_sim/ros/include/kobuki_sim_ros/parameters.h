@@ -18,7 +18,7 @@ struct NodeParams {
   int seed = -1;                  // >= 0; -1: the scenario's own
   double rate = 1.0;              // [1] simulated per wall second; 0: as fast as the subscribers keep up
   bool start_paused = false;      // waits for kobuki_sim/pause or kobuki_sim/step
-  double lockstep_slack = 0.1;    // [s] the world may be ahead of the slowest participant; only at rate 0
+  double lockstep_slack = 0.06;   // [s] the world may be ahead of the slowest participant; only at rate 0
   double lockstep_timeout = 5.0;  // [s] wall time without an acknowledgement until a participant is given up
 
   double camera_frequency = 30.0;  // [Hz]

@@ -13,6 +13,7 @@ inline constexpr char kSmootherInput[] = "raw_cmd_vel";
 inline constexpr char kSmootherOutput[] = "smooth_cmd_vel";
 inline constexpr char kSmootherOdometry[] = "odometry";
 inline constexpr char kSmootherEndCommands[] = "robot_cmd_vel";
+inline constexpr char kSmootherLockstep[] = "/lockstep/velocity_smoother";
 
 // safety_controller
 inline constexpr char kBumperEvents[] = "mobile_base/events/bumper";

@@ -5,6 +5,7 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 
+#include "sarn_common_ros/lockstep_acknowledger.h"
 #include "sarn_navigation/velocity_smoother.h"
 #include "sarn_navigation_ros/line_throttle.h"
 
@@ -26,6 +27,7 @@ class VelocitySmootherNode {
   ros::NodeHandle private_nh_;
   VelocitySmootherParams params_;
   VelocitySmoother smoother_;
+  sarn::LockstepAcknowledger lockstep_;
   ros::Subscriber input_;
   ros::Subscriber feedback_;
   ros::Publisher output_;
