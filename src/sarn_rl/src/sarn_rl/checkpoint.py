@@ -137,7 +137,9 @@ def _read(path: Path) -> Dict[str, Any]:
         document = torch.load(path, map_location="cpu", weights_only=True)
     except FileNotFoundError as error:
         raise CheckpointError(f"{path}: there is no such file") from error
-    except (OSError, EOFError, RuntimeError, pickle.UnpicklingError, zipfile.BadZipFile, ValueError) as error:
+    except pickle.UnpicklingError as error:  # its message is advice on torch.load
+        raise CheckpointError(f"{path}: truncated or not a checkpoint (not a file of weights)") from error
+    except (OSError, EOFError, RuntimeError, zipfile.BadZipFile, ValueError) as error:
         reason = " ".join(str(error).split())[:120]
         raise CheckpointError(f"{path}: truncated or not a checkpoint ({reason})") from error
     keys = {"format", "contract", "weights", "origin", "golden_values"}

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import Any, Dict
 
 import numpy as np
 
 from sarn_rl.checkpoint import load_checkpoint
+from sarn_rl.cli.outputs import write_json
 from sarn_rl.deployment.deciders import Decider, ValueDecider, file_fingerprint, make_decider
 from sarn_rl.deployment.params import PolicyParams
 from sarn_rl.deployment.proof import Proof, prove
@@ -46,8 +46,7 @@ def run(options: argparse.Namespace) -> int:
         reports[str(bag)] = figures(proof)
         print(format_proof(str(bag), proof))
         fine &= passes(proof, options.tolerance)
-    if options.json:
-        options.json.write_text(json.dumps(reports, indent=1) + "\n", encoding="utf-8")
+    write_json(options.json, reports)
     return 0 if fine else 1
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from sarn_rl.cli.outputs import prepared
 from sarn_rl.training.trainer import LOG_FILE
 
 # Episodes that a point of a training curve is the mean of.
@@ -39,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
     axes[2].set_ylabel("validation success")
     axes[2].set_xlabel("episodes")
     axes[0].legend()
-    figure.savefig(options.out)
+    figure.savefig(prepared(options.out))
     print(f"wrote {options.out}")
     return 0
 

@@ -8,6 +8,7 @@ import json
 from pathlib import Path
 from typing import Any, Dict, Optional
 
+from sarn_rl.cli.outputs import write_json
 from sarn_rl.cli.policy_options import (
     Chosen,
     add_policy_options,
@@ -41,8 +42,7 @@ def run(options: argparse.Namespace) -> int:
     if options.policy in ("orca", "social_force"):
         row["safety_space"] = options.safety_space
     print(json.dumps(row, indent=2))
-    if options.json:
-        options.json.write_text(json.dumps(row, indent=2) + "\n", encoding="utf-8")
+    write_json(options.json, row, indent=2)
     return 0
 
 

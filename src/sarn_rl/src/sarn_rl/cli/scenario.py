@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import json
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence
 
 import yaml
 
+from sarn_rl.cli.outputs import write_json
 from sarn_rl.declared import from_dict
 from sarn_rl.deployment.deciders import Decider, make_decider
 from sarn_rl.deployment.params import PLANNERS, PolicyParams
@@ -57,9 +57,8 @@ def run(options: argparse.Namespace) -> int:
     if options.runs is not None:
         ways["nodes"] = judge_runs(options.runs, seeds, decider)
     print(format_drives(options.policy, ways))
-    if options.json:
-        document = {name: [dataclasses.asdict(drive) for drive in drives] for name, drives in ways.items()}
-        options.json.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    document = {name: [dataclasses.asdict(drive) for drive in drives] for name, drives in ways.items()}
+    write_json(options.json, document)
     return 0
 
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +13,7 @@ import numpy as np
 
 from sarn_rl.actions import Kinematics
 from sarn_rl.cli.evaluate import BENCHMARK_REWARD, described, evaluated_row
+from sarn_rl.cli.outputs import write_json
 from sarn_rl.cli.policy_options import Chosen, checkpoint_policy, checkpoint_world
 from sarn_rl.envs.cases import SPLIT_SIZES, CaseParams
 from sarn_rl.envs.params import EnvironmentParams
@@ -43,18 +43,21 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    if not options.models.is_dir():
+        raise ValueError(f"--models: {options.models} is not a directory of checkpoints")
+    checkpoints = sorted(options.models.glob("*.pt"))
+    if not checkpoints:
+        print(f"sarn_rl: {options.models}: no *.pt: baselines only", file=sys.stderr)
     strangers = Strangers(
         EnvironmentParams(), BENCHMARK_REWARD, options.recordings, options.count or SPLIT_SIZES["test"]
     )
     rows = baseline_rows(options.count) + orca_among_strangers(strangers)
-    for path in sorted(options.models.glob("*.pt")):
+    for path in checkpoints:
         rows += model_rows(path, options.count, strangers)
     print(format_table(rows))
     for word in strangers.skipped:
         print(word)
-    if options.out:
-        options.out.parent.mkdir(parents=True, exist_ok=True)
-        options.out.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    write_json(options.out, rows)
     return 0
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from sarn_rl.cli.outputs import prepared
 from sarn_rl.cli.policy_options import (
     add_policy_options,
     add_world_options,
@@ -31,6 +32,7 @@ def run(options: argparse.Namespace) -> int:
     if options.out.suffix not in (".gif", ".png"):
         raise ValueError(f"--out: {options.out} ends neither in .gif nor in .png")
     chosen, world = chosen_policy(options), chosen_world(options)
+    prepared(options.out)
     seed = case_seed(options.cases, options.case)
     worlds = Worlds(world, chosen.reward, chosen.policy.kinematics, 1)
     worlds.begin([0], [make_case(world.cases, seed)], [seed])

@@ -69,6 +69,7 @@ class PolicyParams:
     progress_distance, progress_timeout: a goal is given up when its distance has not fallen by so much [m]
         for so long [s].
     lockstep: the simulation waits for decisions.
+    lockstep_slack: [s] the simulation's own parameter.
     expect: what the checkpoint must have been trained for.
     """
 
@@ -86,6 +87,7 @@ class PolicyParams:
     progress_distance: float = 0.3
     progress_timeout: float = 25.0
     lockstep: bool = False
+    lockstep_slack: float = 0.1
     expect: Expectation = field(default_factory=Expectation)
 
     def problems(self) -> Tuple[str, ...]:
@@ -101,6 +103,7 @@ class PolicyParams:
             "hull_radius": (0.01, 2.0),
             "progress_distance": (0.01, 10.0),
             "progress_timeout": (1.0, 1000.0),
+            "lockstep_slack": (0.0, 10.0),
         }
         for name, (least, most) in ranges.items():
             if not least <= getattr(self, name) <= most:

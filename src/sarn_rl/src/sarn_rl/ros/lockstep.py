@@ -17,9 +17,15 @@ class LockstepAcknowledger:
 
     A node to which nothing comes has come as far as the clock; without that, a world that waits for the node
     and a node that waits for the world would stand still for ever.
+
+    Args:
+        topic: of this node.
+        behind: [s] less than what has been processed is told. The world is never more than its lockstep_slack
+            ahead of that; with slack - period it waits at each cycle until the command is out.
     """
 
-    def __init__(self, topic: str) -> None:
+    def __init__(self, topic: str, behind: float) -> None:
+        self._behind = rospy.Duration.from_sec(max(0.0, behind))
         self._publisher = rospy.Publisher(topic, Time, queue_size=10, tcp_nodelay=True)
         self._last = time.monotonic()
         self._busy = False
@@ -34,7 +40,8 @@ class LockstepAcknowledger:
         """Everything up to this simulated time has been processed."""
         self._last = time.monotonic()
         self._busy = False
-        self._publisher.publish(processed)
+        if processed.to_sec() > self._behind.to_sec():
+            self._publisher.publish(processed - self._behind)
 
     def _watch(self) -> None:
         while not rospy.is_shutdown():

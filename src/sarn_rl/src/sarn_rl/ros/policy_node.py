@@ -39,7 +39,9 @@ class PolicyNode:
         self._command = rospy.Publisher(topics.COMMAND, Twist, queue_size=10, tcp_nodelay=True)
         self._status = rospy.Publisher(topics.STATUS, NavigationStatus, queue_size=10)
         self._decision = rospy.Publisher(topics.DECISION, PolicyDecision, queue_size=20)
-        self._lockstep = LockstepAcknowledger(topics.LOCKSTEP)
+        self._lockstep = LockstepAcknowledger(
+            topics.LOCKSTEP, params.lockstep_slack - 1.0 / params.control_frequency
+        )
         self._goals = GoalServer(params.global_frame)
         self._period = int(1e9 / params.control_frequency)  # [ns]
         self._zeros_to_send = 0
