@@ -97,6 +97,17 @@ def test_row_without_a_success_is_json(tmp_path: Path, checkpoint: Path) -> None
     assert row["success"] == 0.0 and row["time_s"] is None
 
 
+def test_sides_of_a_baseline(tmp_path: Path) -> None:
+    out = tmp_path / "sides.json"
+    assert main(["sides", "--policy", "orca", "--count", "4", "--json", str(out)]) == 0
+    rows = json.loads(out.read_text())
+    assert [row["kind"] for row in rows] == ["head_on", "overtaking"]
+    for row in rows:
+        parts = [row[key] for key in ("right_hand", "left_hand", "never_passed", "collision")]
+        assert sum(parts) == pytest.approx(1.0)
+    assert main(["sides", "--policy", "orca", "--count", "0"]) == 1
+
+
 def test_watch_draws_paths_and_a_video(tmp_path: Path) -> None:
     for name in ("case.png", "case.gif"):
         out = tmp_path / name

@@ -24,7 +24,7 @@ from sarn_rl.joint_state import (
     JointState,
 )
 from sarn_rl.observation import Observation, encode
-from sarn_rl.reward import RewardParams, closest_distance, discounted, step_reward
+from sarn_rl.reward import RewardParams, closest_distance, discounted, norm_reward, step_reward
 
 
 def constant_velocity(people: np.ndarray, time_step: float) -> np.ndarray:
@@ -98,8 +98,10 @@ class Lookahead:
             < after[..., RADIUS]
         )
         rewards = step_reward(separation, reached, self._time_step, self._reward)
+        present = state.present[:, None]
+        rewards = rewards + norm_reward(after, people_after[:, None], present, self._time_step, self._reward)
         discount = discounted(self._gamma, self._time_step, state.robots[:, PREFERRED_SPEED])[:, None]
-        observation = encode(after, people_after[:, None], state.present[:, None], self._with_theta)
+        observation = encode(after, people_after[:, None], present, self._with_theta)
         return Prospect(actions, rewards, reached | (separation < 0.0), discount, observation)
 
     def _table(self, preferred_speed: float) -> np.ndarray:

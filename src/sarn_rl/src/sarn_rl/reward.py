@@ -8,6 +8,8 @@ from typing import Tuple
 
 import numpy as np
 
+from sarn_rl.norms import NORMS, breaks_norm
+
 
 @dataclass(frozen=True)
 class RewardParams:
@@ -18,6 +20,8 @@ class RewardParams:
     discomfort_factor: [1/m] cost of each metre below it.
     discomfort_scaled_by_time_step: whether the cost is multiplied by the time step [s], as the public
         benchmark does; the paper's formula is without.
+    norm: none, right or left: the side that the robot is to keep to (see norms.py).
+    norm_cost: [1/s] of breaking it.
     """
 
     success: float = 1.0
@@ -25,6 +29,8 @@ class RewardParams:
     discomfort_dist: float = 0.2
     discomfort_factor: float = 0.5
     discomfort_scaled_by_time_step: bool = False
+    norm: str = "none"
+    norm_cost: float = 0.1
 
     def problems(self) -> Tuple[str, ...]:
         found = []
@@ -36,6 +42,10 @@ class RewardParams:
             found.append(f"discomfort_dist: {self.discomfort_dist} m is not >= 0")
         if not self.discomfort_factor >= 0.0:
             found.append(f"discomfort_factor: {self.discomfort_factor} is not >= 0")
+        if self.norm not in NORMS:
+            found.append(f"norm: '{self.norm}' is none of {', '.join(NORMS)}")
+        if not self.norm_cost >= 0.0:
+            found.append(f"norm_cost: {self.norm_cost} is not >= 0")
         return tuple(found)
 
 
@@ -55,6 +65,16 @@ def step_reward(
     intrusion = np.minimum(min_separation - params.discomfort_dist, 0.0)
     reward = np.where(reached, params.success, factor * intrusion)
     return np.where(min_separation < 0.0, params.collision, reward)
+
+
+def norm_reward(
+    robots: np.ndarray, people: np.ndarray, present: np.ndarray, time_step: float, params: RewardParams
+) -> np.ndarray:
+    """(...) what a step is worth for the norm, of where everybody is after it; shapes as in breaks_norm()."""
+    if params.norm == "none":
+        return np.zeros(robots.shape[:-1])
+    broken = breaks_norm(robots, people, present, params.norm)
+    return np.where(broken, -params.norm_cost * time_step, 0.0)
 
 
 def closest_distance(begin: np.ndarray, end: np.ndarray) -> np.ndarray:

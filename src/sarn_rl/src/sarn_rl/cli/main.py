@@ -15,13 +15,14 @@ EXAMPLES = """examples:
   python -m sarn_rl table --models models --out build/table.json
   python -m sarn_rl curves per=runs/sarl_1 uniform=runs/sarl_uniform_1 --out curves.png
   python -m sarn_rl watch --policy sarl --checkpoint runs/sarl_1/best.pt --case 7 --out case7.gif
+  python -m sarn_rl sides --policy sarl --checkpoint runs/sarl_1/best.pt
   python -m sarn_rl export --checkpoint runs/sarl_1/best.pt --out sarl.torchscript
   python -m sarn_rl check-bag runs/.../run.bag --checkpoint models/sarl_per_turtlebot_seed1.pt
 """
 
 
 def make_parser() -> argparse.ArgumentParser:
-    from sarn_rl.cli import check_bag, curves, evaluate, export, scenario, table, train, watch
+    from sarn_rl.cli import check_bag, curves, evaluate, export, scenario, sides, table, train, watch
 
     parser = argparse.ArgumentParser(
         prog="python -m sarn_rl",
@@ -30,7 +31,7 @@ def make_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for module in (train, evaluate, table, curves, watch, export, check_bag, scenario):
+    for module in (train, evaluate, table, curves, watch, export, check_bag, scenario, sides):
         module.add_parser(commands)
     return parser
 

@@ -14,7 +14,7 @@ from sarn_rl.actions import Kinematics
 from sarn_rl.envs.cases import Case
 from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.joint_state import JointState
-from sarn_rl.reward import RewardParams, step_reward
+from sarn_rl.reward import RewardParams, norm_reward, step_reward
 
 
 class Outcome(enum.IntEnum):
@@ -136,6 +136,10 @@ class Worlds:
             np.where(reached, Outcome.SUCCESS, np.where(timeout, Outcome.TIMEOUT, Outcome.RUNNING)),
         )
         rewards = step_reward(separation, reached, self.params.time_step, self._reward)
+        if self._reward.norm != "none":
+            now = self.state
+            time_step = self.params.time_step
+            rewards = rewards + norm_reward(now.robots, now.people, now.present, time_step, self._reward)
         close = (separation < self._reward.discomfort_dist) & ~collision & ~reached
         return Steps(rewards, outcomes, separation, close)
 

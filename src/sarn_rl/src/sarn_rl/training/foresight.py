@@ -15,6 +15,7 @@ from typing import NamedTuple, Tuple
 import numpy as np
 import torch
 
+from sarn_rl.norms import GOAL_DISTANCE, norm_broken_by
 from sarn_rl.reward import RewardParams
 
 
@@ -105,6 +106,9 @@ class Foresight:
             np.power(free_discount, np.maximum(0.0, distance - robot_radius)).astype(np.float32)
         )
         self._headings = torch.from_numpy(motions.headings)
+        self._offsets, self._time_step = motions.offsets, time_step
+        self._norm_cost = reward.norm_cost * time_step
+        self._far = distance > GOAL_DISTANCE
         self._ends = _shifts(motions.offsets, grid.cell)
         self._middles = _shifts(motions.middles, grid.cell)
 
@@ -122,7 +126,8 @@ class Foresight:
         for time in range(times - 2, -1, -1):
             before = self._clearance(ways[:, time], radii)
             middle = self._clearance(0.5 * (ways[:, time] + ways[:, time + 1]), radii)
-            value = self._backup(value, before, middle, after)
+            motion = (ways[:, time + 1] - ways[:, time]) / self._time_step
+            value = self._backup(value, before, middle, after, ways[:, time + 1], motion)
             out[:, time] = value.numpy()
             after = before
         return out
@@ -138,8 +143,30 @@ class Foresight:
         )
         return gaps.min(dim=1).values
 
+    def _broken(self, heading: int, people: np.ndarray, velocities: np.ndarray) -> torch.Tensor:
+        """(C, A, rows, columns): 1 where an action ends against the norm, people (C, P, 2) being there."""
+        offsets = self._offsets[heading]
+        x = self._x.numpy()[None, None, None] + offsets[None, None, :, 0, None, None]
+        y = self._y.numpy()[None, None, None] + offsets[None, None, :, 1, None, None]
+        broken = norm_broken_by(
+            people[:, :, 0, None, None, None] - x,
+            people[:, :, 1, None, None, None] - y,
+            offsets[None, None, :, 0, None, None] / self._time_step,
+            offsets[None, None, :, 1, None, None] / self._time_step,
+            velocities[:, :, 0, None, None, None],
+            velocities[:, :, 1, None, None, None],
+            self._reward.norm,
+        )
+        return torch.from_numpy((broken.any(axis=1) & self._far).astype(np.float32))
+
     def _backup(
-        self, value: torch.Tensor, before: torch.Tensor, middle: torch.Tensor, after: torch.Tensor
+        self,
+        value: torch.Tensor,
+        before: torch.Tensor,
+        middle: torch.Tensor,
+        after: torch.Tensor,
+        people: np.ndarray,
+        velocities: np.ndarray,
     ) -> torch.Tensor:
         # Arriving is worth the reward in the step that arrives, undiscounted.
         value = torch.where(self._reached, self._reward.success / self._discount, value)
@@ -153,6 +180,8 @@ class Foresight:
             worth = self._discount * later + self._factor * (gap - self._reward.discomfort_dist).clamp(
                 max=0.0
             )
+            if self._reward.norm != "none":
+                worth = worth - self._norm_cost * self._broken(heading, people, velocities)
             worth = torch.where(gap < 0.0, self._reward.collision, worth)
             best.append(worth.max(dim=1).values)
         return torch.stack(best, dim=1)
