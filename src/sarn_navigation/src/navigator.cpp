@@ -167,6 +167,7 @@ void Navigator::adoptResult(const NavigatorInput& input) {
   status_.plan_status = result->status;
   if (lattice_planner::isDrivable(result->status) && !result->trajectory.empty()) {
     plan_failure_.clear();
+    status_.plan_stamp = input.now;
     if (!keepsPlan(*result, input)) adoptPlan(*result);
     return;
   }

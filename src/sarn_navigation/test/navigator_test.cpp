@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drawn_scene.h"
+#include "lattice_planner/trajectory_cost.h"
 
 namespace sarn_navigation {
 namespace {
@@ -23,12 +25,15 @@ lattice_planner::PlannerParams plannerParams() {
 /// A perfect robot in a drawn world, driven by the navigator; plans are waited for, so that tests repeat.
 class Drive {
  public:
-  Drive(DrawnScene& scene, const sarn::Pose2D& start, const NavigatorParams& params = {})
+  Drive(DrawnScene& scene, const sarn::Pose2D& start, const NavigatorParams& params = {},
+        CostFunction cost = {})
       : scene_(scene),
         pose_(start),
         planner_(std::make_shared<lattice_planner::LatticePlanner>(plannerParams())),
-        navigator_(params, {},
-                   [this](const auto& request, const auto& view) { return planner_->plan(request, view); }) {}
+        navigator_(
+            params, {},
+            [this](const auto& request, const auto& view) { return planner_->plan(request, view); },
+            std::move(cost)) {}
 
   NavigatorInput input() { return {now_, pose_, twist_, scene_.shared()}; }
   std::string setGoal(const sarn::Pose2D& goal) { return navigator_.setGoal(goal, input()); }
@@ -124,6 +129,57 @@ TEST(Navigator, movesAsideForSomebodyWhoseWayItBlocksAndStaysCalmOtherwise) {
   EXPECT_NE(drive.navigator().status().reason.find("anna"), std::string::npos);
   for (int i = 0; i < 120; ++i) drive.step();
   EXPECT_GT(std::abs(drive.pose().y - 2.0), NavigatorParams().yield_distance) << "out of the person's line";
+}
+
+/// What the planner minimises, as the node gives it to the navigator.
+double planCost(const sarn::TimedTrajectory& trajectory, const sarn::TimedCostmapView& view, double from) {
+  return lattice_planner::trajectoryCost(plannerParams(), trajectory, view, from);
+}
+
+TEST(Navigator, keepsThePlanItDrivesWhileNoneIsClearlyCheaper) {
+  DrawnScene scene(room(32, 8));
+  Drive drive(scene, {0.6, 1.0, 0.0}, {}, planCost);
+  ASSERT_EQ(drive.setGoal({7.0, 1.0, 0.0}), "");
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kDriving, 5.0));
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kSucceeded, 30.0));
+  EXPECT_EQ(drive.navigator().planCount(), 1U) << "nothing changed: the first plan was driven to its end";
+}
+
+TEST(Navigator, withoutACostFunctionEveryPlanIsTakenOver) {
+  DrawnScene scene(room(32, 8));
+  Drive drive(scene, {0.6, 1.0, 0.0});
+  ASSERT_EQ(drive.setGoal({7.0, 1.0, 0.0}), "");
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kSucceeded, 30.0));
+  EXPECT_GT(drive.navigator().planCount(), 10U);
+}
+
+TEST(Navigator, leavesThePlanForAClearlyCheaperOne) {
+  std::vector<std::string> dear = room(32, 12);  // a dear band in the middle, which leaves the edges free
+  DrawnScene scene(dear);
+  Drive drive(scene, {0.6, 1.5, 0.0}, {}, planCost);
+  ASSERT_EQ(drive.setGoal({7.0, 1.5, 0.0}), "");
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kDriving, 5.0));
+  const unsigned before = drive.navigator().planCount();
+  for (std::size_t row = 4; row < 8; ++row) {
+    for (std::size_t x = 12; x < 22; ++x) dear[row][x] = '9';  // y in [1, 2], x in [3, 5.5]
+  }
+  DrawnScene changed(dear);
+  scene.view() = changed.view();
+  for (int i = 0; i < 40; ++i) drive.step();
+  EXPECT_GT(drive.navigator().planCount(), before);
+}
+
+TEST(Navigator, aPlanThatIsBlockedIsNotKept) {
+  DrawnScene scene(room(32, 8));
+  Drive drive(scene, {0.6, 1.0, 0.0}, {}, planCost);
+  ASSERT_EQ(drive.setGoal({7.0, 1.0, 0.0}), "");
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kDriving, 5.0));
+  std::vector<std::string> walled = room(32, 8);
+  for (std::size_t row = 2; row < 8; ++row) walled[row][20] = '#';  // free above y = 1.5
+  DrawnScene blocked(walled);
+  scene.view() = blocked.view();
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kSucceeded, 60.0));
+  EXPECT_GT(drive.navigator().planCount(), 1U);
 }
 
 TEST(Navigator, cancelStopsWithinTheAccelerationLimit) {

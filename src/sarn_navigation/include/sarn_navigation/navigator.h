@@ -44,6 +44,7 @@ struct NavigatorStatus {
   double distance_to_goal = -1.0;  // [m] along the static map; -1: no goal
   lattice_planner::PlanStatus plan_status = lattice_planner::PlanStatus::kComplete;
   double planning_time = 0.0;  // [s] wall time of the last search
+  double plan_stamp = 0.0;     // [s] when a search last gave a plan
   std::size_t expansions = 0;
   unsigned deadline_misses = 0;  // searches since the goal was set that reached their time limit
   unsigned people_near = 0;

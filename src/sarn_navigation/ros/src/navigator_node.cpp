@@ -18,9 +18,11 @@ namespace {
 
 constexpr std::size_t kMaxPendingScans = 10;
 constexpr double kClockJump = 0.5;          // [s] back
+constexpr double kRenewAction = 1.0;        // [s] for the last result to get through
 constexpr double kStatusPeriod = 0.1;       // [s]
 constexpr int kFinalZeros = 10;             // commands
 constexpr double kFreshPose = 0.04;         // [s] age of a pose that is as new as 50 Hz odometry makes it
+constexpr double kStalePlans = 5.0;         // searches without a plan make a plan stale
 constexpr double kTransformPatience = 0.1;  // [s] wall time
 
 /// A snapshot with the view the planner reads.
@@ -39,16 +41,15 @@ std::shared_ptr<const sarn::TimedCostmapView> makeScene(
   return {scene, &scene->view};
 }
 
-PlanFunction makePlanFunction(const lattice_planner::PlannerParams& params) {
-  auto planner = std::make_shared<lattice_planner::LatticePlanner>(params);
+PlanFunction makePlanFunction(const std::shared_ptr<LivePlanner>& planner) {
   return [planner](const lattice_planner::PlanRequest& request, const sarn::TimedCostmapView& view) {
     return planner->plan(request, view);
   };
 }
 
-CostFunction makeCostFunction(const lattice_planner::PlannerParams& params) {
-  return [params](const sarn::TimedTrajectory& trajectory, const sarn::TimedCostmapView& view, double from) {
-    return lattice_planner::trajectoryCost(params, trajectory, view, from);
+CostFunction makeCostFunction(const std::shared_ptr<LivePlanner>& planner) {
+  return [planner](const sarn::TimedTrajectory& trajectory, const sarn::TimedCostmapView& view, double from) {
+    return lattice_planner::trajectoryCost(planner->params(), trajectory, view, from);
   };
 }
 
@@ -60,9 +61,10 @@ NavigatorNode::NavigatorNode(const ros::NodeHandle& nh, const ros::NodeHandle& p
       config_(readNavigatorConfig(private_nh_)),
       tf_listener_(tf_buffer_),
       costmap_(config_.costmap),
-      navigator_(config_.navigator, config_.follower, makePlanFunction(config_.planner),
-                 makeCostFunction(config_.planner)),
+      planner_(std::make_shared<LivePlanner>(config_.planner)),
+      navigator_(config_.navigator, config_.follower, makePlanFunction(planner_), makeCostFunction(planner_)),
       display_(private_nh_, config_.node.global_frame, config_.node.visualization_frequency),
+      diagnostics_(nh_, private_nh_, kStalePlans / config_.navigator.planner_frequency),
       lockstep_(nh_, topics::kLockstep) {
   command_ = nh_.advertise<geometry_msgs::Twist>(topics::kCommand, 10);
   status_ = nh_.advertise<sarn_msgs::NavigationStatus>(topics::kStatus, 10);
@@ -79,14 +81,20 @@ NavigatorNode::NavigatorNode(const ros::NodeHandle& nh, const ros::NodeHandle& p
       nh_.subscribe(topics::kPeoplePrediction, 10, &NavigatorNode::onPrediction, this, no_delay);
   clear_service_ =
       private_nh_.advertiseService(topics::kClearCostmaps, &NavigatorNode::onClearCostmaps, this);
+  offerAction();
+  plan_service_ = std::make_unique<PlanService>(private_nh_, config_.planner, config_.node.global_frame,
+                                                [this] { return scene(); });
+  tuning_ = std::make_unique<LiveTuning>(private_nh_, config_.costmap.social_layers, config_.planner,
+                                         tuningHandlers());
+  control_timer_ = nh_.createTimer(ros::Duration(1.0 / config_.navigator.controller_frequency),
+                                   [this](const ros::TimerEvent&) { onControl(); });
+}
+
+void NavigatorNode::offerAction() {
   goals_ = std::make_unique<GoalServer>(
       nh_, tf_buffer_, config_.node.global_frame,
       GoalServer::Handlers{[this](const sarn::Pose2D& goal) { return acceptGoal(goal); },
-                           [this] { navigator_.cancel(); }});
-  plan_service_ = std::make_unique<PlanService>(private_nh_, config_.planner, config_.node.global_frame,
-                                                [this] { return scene(); });
-  control_timer_ = nh_.createTimer(ros::Duration(1.0 / config_.navigator.controller_frequency),
-                                   [this](const ros::TimerEvent&) { onControl(); });
+                           [this] { forgetGoal(); }});
 }
 
 void NavigatorNode::say(LineThrottle& line, const std::string& text) {
@@ -142,10 +150,70 @@ bool NavigatorNode::onClearCostmaps(std_srvs::Empty::Request&, std_srvs::Empty::
 std::string NavigatorNode::acceptGoal(const sarn::Pose2D& goal) {
   const double now = ros::Time::now().toSec();
   const auto pose = robotPose(now);
-  if (!pose) return "the robot's pose is not known (see the log)";
-  updateScene(*pose, now);
-  if (!scene_) return "there is no map yet on " + map_subscriber_.getTopic();
-  return navigator_.setGoal(goal, {now, *pose, measured_, scene_});
+  pending_goal_.reset();
+  if (pose) updateScene(*pose, now);
+  if (pose && scene_) return navigator_.setGoal(goal, {now, *pose, measured_, scene_});
+  navigator_.cancel();
+  const std::string missing = missingInput();
+  if (config_.node.pose_patience <= 0.0) return missing;
+  pending_goal_ = PendingGoal{goal, std::nullopt};
+  ROS_WARN("%s: the goal waits %.1f s for it", missing.c_str(), config_.node.pose_patience);
+  return {};
+}
+
+void NavigatorNode::startPendingGoal(const NavigatorInput& input) {
+  if (!pending_goal_) return;
+  const std::string problem = navigator_.setGoal(pending_goal_->goal, input);
+  pending_goal_.reset();
+  if (!problem.empty()) goals_->abort(problem);
+}
+
+/// Nothing can be controlled without pose and map: the robot stands; a goal that came meanwhile waits a
+/// while.
+void NavigatorNode::waitForInput(double now) {
+  if (goals_->active()) command_.publish(geometry_msgs::Twist());
+  if (!pending_goal_) return;
+  const std::string missing = missingInput();
+  if (!pending_goal_->deadline) pending_goal_->deadline = now + config_.node.pose_patience;
+  if (now >= *pending_goal_->deadline) {
+    pending_goal_.reset();
+    goals_->abort(missing);
+    return;
+  }
+  if (now < next_status_) return;
+  next_status_ = now + kStatusPeriod - 1e-6;
+  NavigatorStatus status = navigator_.status();
+  status.state = NavigatorState::kWaiting;
+  status.reason = missing;
+  status_.publish(toMessage(status, config_.node.global_frame, ros::Time(now)));
+}
+
+void NavigatorNode::forgetGoal() {
+  pending_goal_.reset();
+  navigator_.cancel();
+}
+
+LiveTuning::Handlers NavigatorNode::tuningHandlers() {
+  return {[this](const social_costmap::SocialParams& params) {
+            costmap_.setSocialParams(params);
+            config_.costmap.social_layers = params;
+            next_costmap_ = 0.0;
+          },
+          [this](const lattice_planner::PlannerParams& params) {
+            planner_->setParams(params);
+            plan_service_->setParams(params);
+          }};
+}
+
+void NavigatorNode::diagnose(double now, bool controlled) {
+  const NavigatorStatus& status = navigator_.status();
+  const double age = navigator_.trajectory().empty() ? -1.0 : now - status.plan_stamp;
+  const bool wanted = navigator_.hasGoal() || pending_goal_;
+  diagnostics_.update(status, age, wanted && !controlled ? missingInput() : std::string());
+}
+
+std::string NavigatorNode::missingInput() const {
+  return pose_problem_.empty() ? "there is no map on " + map_subscriber_.getTopic() : pose_problem_;
 }
 
 std::optional<sarn::Pose2D> NavigatorNode::robotPose(double now) {
@@ -154,18 +222,16 @@ std::optional<sarn::Pose2D> NavigatorNode::robotPose(double now) {
   try {
     const auto transform = tf_buffer_.lookupTransform(map, base, ros::Time(0));
     const double age = now - transform.header.stamp.toSec();
-    if (std::abs(age) > config_.navigator.transform_tolerance) {
-      say(pose_line_, "transform " + map + " -> " + base + " is " + std::to_string(age) +
-                          " s old: the robot stands still");
-      return std::nullopt;
-    }
     const auto pose = sarn::fromMessage(transform.transform);
-    if (!pose) say(pose_line_, "transform " + map + " -> " + base + " is not planar: the robot stands still");
-    return pose;
+    pose_problem_.clear();
+    if (pose && std::abs(age) <= config_.navigator.transform_tolerance) return pose;
+    pose_problem_ = "transform " + map + " -> " + base +
+                    (pose ? " is " + std::to_string(age) + " s old" : std::string(" is not planar"));
   } catch (const tf2::TransformException& error) {
-    say(pose_line_, "transform " + map + " -> " + base + ": " + error.what() + ": the robot stands still");
-    return std::nullopt;
+    pose_problem_ = "transform " + map + " -> " + base + ": " + error.what();
   }
+  say(pose_line_, pose_problem_ + ": the robot stands still");
+  return std::nullopt;
 }
 
 void NavigatorNode::digestScans() {
@@ -201,12 +267,19 @@ void NavigatorNode::guardClock(double now) {
     ROS_WARN("the clock jumped back from %.2f to %.2f s: plans, people and the goal are forgotten", last_now_,
              now);
     navigator_.reset();
+    pending_goal_.reset();
+    diagnostics_.restart();
     goals_->abort("the clock jumped back");
     scans_.clear();
     tf_buffer_.clear();
     next_costmap_ = next_status_ = 0.0;
+    renew_action_ = now + kRenewAction;
   }
   last_now_ = now;
+  if (!renew_action_ || now < *renew_action_ || goals_->active()) return;
+  renew_action_.reset();  // actionlib refuses goals stamped before the last one
+  goals_.reset();
+  offerAction();
 }
 
 std::shared_ptr<const sarn::TimedCostmapView> NavigatorNode::scene() const {
@@ -242,12 +315,15 @@ void NavigatorNode::onControl() {
   const double now = stamp.toSec();
   guardClock(now);
   if (config_.node.lockstep) waitForTransforms(stamp);
-  if (const auto input = makeInput(now)) {
+  const auto input = makeInput(now);
+  if (input) {
+    startPendingGoal(*input);
     send(navigator_.step(*input));
     report(*input);
-  } else if (goals_->active()) {
-    command_.publish(geometry_msgs::Twist());  // a robot in doubt stands still
+  } else {
+    waitForInput(now);
   }
+  diagnose(now, input.has_value());
   if (config_.node.lockstep) navigator_.waitForPlanDue(now);
   lockstep_.acknowledge(stamp);
 }

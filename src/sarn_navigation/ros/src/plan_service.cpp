@@ -45,6 +45,7 @@ bool PlanService::onMakePlan(nav_msgs::GetPlan::Request& request, nav_msgs::GetP
     ROS_ERROR("make_plan: %s", problem.c_str());
     return false;
   }
+  planner_.waitUntilReady();
   const double now = response.plan.header.stamp.toSec();
   const auto result =
       planner_.plan({{start->x, start->y, start->theta, 0.0, 0.0, now}, *goal, kTimeLimit}, *scene);

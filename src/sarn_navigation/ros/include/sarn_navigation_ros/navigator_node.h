@@ -18,9 +18,12 @@
 #include <string>
 
 #include "sarn_common_ros/lockstep_acknowledger.h"
+#include "sarn_navigation/live_planner.h"
 #include "sarn_navigation/navigator.h"
 #include "sarn_navigation_ros/goal_server.h"
 #include "sarn_navigation_ros/line_throttle.h"
+#include "sarn_navigation_ros/live_tuning.h"
+#include "sarn_navigation_ros/navigator_diagnostics.h"
 #include "sarn_navigation_ros/navigator_display.h"
 #include "sarn_navigation_ros/navigator_parameters.h"
 #include "sarn_navigation_ros/plan_service.h"
@@ -41,8 +44,19 @@ class NavigatorNode {
   bool onClearCostmaps(std_srvs::Empty::Request&, std_srvs::Empty::Response&);
   void onControl();
 
+  struct PendingGoal {
+    sarn::Pose2D goal;
+    std::optional<double> deadline;  // [s] once the clock is known
+  };
+
   [[nodiscard]] std::string acceptGoal(const sarn::Pose2D& goal);
+  void startPendingGoal(const NavigatorInput& input);
+  void waitForInput(double now);
+  void forgetGoal();
+  void diagnose(double now, bool controlled);
+  [[nodiscard]] std::string missingInput() const;
   void guardClock(double now);
+  void offerAction();
   void digestScans();
   void updateScene(const sarn::Pose2D& robot, double now);
   [[nodiscard]] std::shared_ptr<const sarn::TimedCostmapView> scene() const;
@@ -52,6 +66,7 @@ class NavigatorNode {
   void report(const NavigatorInput& input);
   void waitForTransforms(const ros::Time& now);
   void say(LineThrottle& line, const std::string& text);
+  [[nodiscard]] LiveTuning::Handlers tuningHandlers();
 
   ros::NodeHandle nh_;
   ros::NodeHandle private_nh_;
@@ -59,8 +74,10 @@ class NavigatorNode {
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;
   social_costmap::TimedCostmap costmap_;
+  std::shared_ptr<LivePlanner> planner_;
   Navigator navigator_;
   NavigatorDisplay display_;
+  NavigatorDiagnostics diagnostics_;
   sarn::LockstepAcknowledger lockstep_;
 
   mutable std::mutex scene_mutex_;
@@ -68,12 +85,15 @@ class NavigatorNode {
   std::shared_ptr<const social_costmap::Snapshot> snapshot_;  // what scene_ shows
   sarn::Twist2D measured_;                                    // of the last odometry
   std::deque<sensor_msgs::LaserScanConstPtr> scans_;          // waiting for their transform
+  std::optional<PendingGoal> pending_goal_;                   // waits for the pose or the map
+  std::string pose_problem_;                                  // why there is no pose; empty: there is
   bool map_received_ = false;
   bool was_active_ = false;
-  int zeros_to_send_ = 0;      // after the goal: a few zero commands
-  double last_now_ = 0.0;      // [s]
-  double next_costmap_ = 0.0;  // [s]
-  double next_status_ = 0.0;   // [s]
+  int zeros_to_send_ = 0;               // after the goal: a few zero commands
+  double last_now_ = 0.0;               // [s]
+  double next_costmap_ = 0.0;           // [s]
+  double next_status_ = 0.0;            // [s]
+  std::optional<double> renew_action_;  // [s] when the action server is to be made anew
   unsigned displayed_plan_ = 0;
   LineThrottle pose_line_;
   LineThrottle scan_line_;
@@ -89,6 +109,7 @@ class NavigatorNode {
   ros::ServiceServer clear_service_;
   std::unique_ptr<GoalServer> goals_;
   std::unique_ptr<PlanService> plan_service_;
+  std::unique_ptr<LiveTuning> tuning_;
   ros::Timer control_timer_;
 };
 

@@ -18,6 +18,7 @@ struct NavigatorNodeParams {
   std::string social = "timed";     // timed: people move; frozen: people stand where they are now; off: none
   double costmap_frequency = 10.0;  // [Hz]
   double visualization_frequency = 2.0;  // [Hz] simulated time; only while somebody listens
+  double pose_patience = 10.0;           // [s] a goal waits this long for the robot's pose and the map
   bool lockstep = false;                 // the simulation waits for plans that are due
 
   template <class Self, class Visitor>
@@ -27,6 +28,7 @@ struct NavigatorNodeParams {
     v("social", p.social);
     v("costmap_frequency", p.costmap_frequency, {0.5, 50.0});
     v("visualization_frequency", p.visualization_frequency, {0.1, 20.0});
+    v("pose_patience", p.pose_patience, {0.0, 600.0});
     v("lockstep", p.lockstep);
   }
   [[nodiscard]] std::vector<std::string> conflicts() const {

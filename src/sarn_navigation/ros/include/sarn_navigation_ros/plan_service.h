@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "lattice_planner/lattice_planner.h"
+#include "sarn_navigation/live_planner.h"
 
 namespace sarn_navigation {
 
@@ -22,12 +22,15 @@ class PlanService {
   PlanService(const ros::NodeHandle& private_nh, const lattice_planner::PlannerParams& params,
               std::string global_frame, SceneSource scene);
 
+  /// The next answer follows these; throws std::invalid_argument.
+  void setParams(const lattice_planner::PlannerParams& params) { planner_.setParams(params); }
+
  private:
   bool onMakePlan(nav_msgs::GetPlan::Request& request, nav_msgs::GetPlan::Response& response);
 
   std::string global_frame_;
   SceneSource scene_;
-  lattice_planner::LatticePlanner planner_;
+  LivePlanner planner_;
   ros::CallbackQueue queue_;
   ros::NodeHandle nh_;
   ros::ServiceServer server_;

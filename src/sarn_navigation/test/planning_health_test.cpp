@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sarn_navigation/planning_health.h"
+
+#include <gtest/gtest.h>
+
+namespace sarn_navigation {
+namespace {
+
+NavigatorStatus status(NavigatorState state, unsigned misses = 0) {
+  NavigatorStatus s;
+  s.state = state;
+  s.deadline_misses = misses;
+  return s;
+}
+
+TEST(PlanningHealth, drivingAFreshPlanIsFine) {
+  PlanningHealth health(2.5);
+  EXPECT_EQ(health.judge(status(NavigatorState::kDriving), 0.4, "").level, HealthLevel::kOk);
+  EXPECT_EQ(health.judge(status(NavigatorState::kIdle), -1.0, "").level, HealthLevel::kOk);
+}
+
+TEST(PlanningHealth, stalePlanIsAWarning) {
+  PlanningHealth health(2.5);
+  EXPECT_EQ(health.judge(status(NavigatorState::kDriving), 2.6, "").level, HealthLevel::kWarn);
+}
+
+TEST(PlanningHealth, onlyNewDeadlineMissesAreAWarning) {
+  PlanningHealth health(2.5);
+  EXPECT_EQ(health.judge(status(NavigatorState::kDriving, 3), 0.4, "").level, HealthLevel::kWarn);
+  EXPECT_EQ(health.judge(status(NavigatorState::kDriving, 3), 0.4, "").level, HealthLevel::kOk);
+  EXPECT_EQ(health.judge(status(NavigatorState::kDriving, 0), 0.4, "").level, HealthLevel::kOk)
+      << "a new goal";
+  EXPECT_EQ(health.judge(status(NavigatorState::kDriving, 1), 0.4, "").level, HealthLevel::kWarn);
+}
+
+TEST(PlanningHealth, missingInputIsAnErrorThatSaysWhat) {
+  PlanningHealth health(2.5);
+  const Health judged = health.judge(status(NavigatorState::kDriving), 0.4, "no tf");
+  EXPECT_EQ(judged.level, HealthLevel::kError);
+  EXPECT_EQ(judged.summary, "no tf");
+}
+
+TEST(PlanningHealth, goalGivenUpIsAnError) {
+  PlanningHealth health(2.5);
+  NavigatorStatus given_up = status(NavigatorState::kAborted);
+  given_up.reason = "no path";
+  EXPECT_EQ(health.judge(given_up, -1.0, "").level, HealthLevel::kError);
+  EXPECT_NE(health.judge(given_up, -1.0, "").summary.find("no path"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sarn_navigation
