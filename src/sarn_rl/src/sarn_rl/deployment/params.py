@@ -87,7 +87,7 @@ class PolicyParams:
     progress_distance: float = 0.3
     progress_timeout: float = 25.0
     lockstep: bool = False
-    lockstep_slack: float = 0.1
+    lockstep_slack: float = 0.06
     expect: Expectation = field(default_factory=Expectation)
 
     def problems(self) -> Tuple[str, ...]:
