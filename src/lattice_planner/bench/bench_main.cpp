@@ -16,6 +16,7 @@
 
 #include "bench_world.h"
 #include "lattice_planner/lattice_planner.h"
+#include "textbook.h"
 
 namespace {
 
@@ -24,7 +25,11 @@ using lattice_planner::PlanStatus;
 
 constexpr const char* kUsage =
     "usage: lattice_planner_bench MAP.yaml [--pairs FILE.csv] [--people FILE.csv] [--params FILE.yaml]\n"
-    "         [--time-limit SECONDS] [--count N] [--seed N] [--name NAME] [--verbose]\n"
+    "         [--time-limit SECONDS] [--count N] [--seed N] [--name NAME] [--layers N]\n"
+    "         [--optimum N] [--verbose]\n"
+    "--optimum: compare the first N tasks with a textbook A* on the ancestor's lattice (seconds a task; only "
+    "for\n"
+    "config/ancestor.yaml).\n"
     "Without --pairs: N seeded tasks of 2 to 8 m on the map's largest free area.\n";
 
 struct Options {
@@ -35,6 +40,8 @@ struct Options {
   std::string name = "default";
   double time_limit = 0.48;  // [s]
   int count = 100;
+  int layers = 20;  // of 0.5 s; the ancestor has 15
+  int optimum = 0;  // tasks to compare with the textbook
   unsigned seed = 7;
   bool verbose = false;
 };
@@ -59,6 +66,10 @@ Options parse(int argc, char** argv) {
       options.time_limit = std::stod(argv[++i]);
     } else if (key == "--count") {
       options.count = std::stoi(argv[++i]);
+    } else if (key == "--layers") {
+      options.layers = std::stoi(argv[++i]);
+    } else if (key == "--optimum") {
+      options.optimum = std::stoi(argv[++i]);
     } else if (key == "--seed") {
       options.seed = static_cast<unsigned>(std::stoul(argv[++i]));
     } else {
@@ -103,6 +114,7 @@ double mean(const std::vector<double>& values) {
 
 struct Measured {
   std::vector<double> search_ms, cpu_ms, cost, duration, length, person, expansions, bound;
+  std::vector<double> over_optimum;  // [%]
   int reached = 0;
   int timed_out = 0;
 };
@@ -124,6 +136,9 @@ void printSummary(const std::string& name, const Measured& m, std::size_t tasks)
   print("expansions_median", quantile(m.expansions, 0.5));
   print("cost_median", quantile(m.cost, 0.5));
   print("cost_mean", mean(m.cost));
+  print("over_optimum_pct_median", quantile(m.over_optimum, 0.5));
+  print("over_optimum_pct_p90", quantile(m.over_optimum, 0.9));
+  print("over_optimum_pct_max", quantile(m.over_optimum, 1.0));
   print("bound_median", quantile(m.bound, 0.5));
   print("duration_s_median", quantile(m.duration, 0.5));
   print("duration_s_mean", mean(m.duration));
@@ -144,10 +159,10 @@ void printTask(std::size_t index, const PlanResult& r) {
 void measure(const Options& options, lattice_planner::LatticePlanner& planner,
              const sarn::Grid<std::uint8_t>& static_costs,
              const std::vector<lattice_planner::bench::Task>& tasks, bool people) {
-  constexpr int kLayers = 20;
   constexpr double kLayerDuration = 0.5;  // [s]
   constexpr double kRelease = 0.48;       // [s] when the robot starts
-  lattice_planner::bench::SocialLayers social(static_costs.geometry, kLayers, kLayerDuration);
+  lattice_planner::bench::SocialLayers social(static_costs.geometry, options.layers, kLayerDuration);
+  lattice_planner::bench::Textbook textbook(planner.params());
   Measured measured;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (people) social.mark(tasks[i].walkers);
@@ -155,8 +170,9 @@ void measure(const Options& options, lattice_planner::LatticePlanner& planner,
     if (!people) view.layers.clear();
     const sarn::Pose2D& start = tasks[i].start;
     const double cpu_begin = cpuTime();
-    const PlanResult r = planner.plan(
-        {{start.x, start.y, start.theta, 0.0, 0.0, kRelease}, tasks[i].goal, options.time_limit}, view);
+    const lattice_planner::PlanRequest request{
+        {start.x, start.y, start.theta, 0.0, 0.0, kRelease}, tasks[i].goal, options.time_limit};
+    const PlanResult r = planner.plan(request, view);
     if (options.verbose) printTask(i, r);
     measured.cpu_ms.push_back((cpuTime() - cpu_begin) * 1e3);
     measured.search_ms.push_back(r.search_time * 1e3);
@@ -165,6 +181,11 @@ void measure(const Options& options, lattice_planner::LatticePlanner& planner,
     if (r.status != PlanStatus::kComplete) continue;
     ++measured.reached;
     measured.cost.push_back(r.cost);
+    if (static_cast<int>(i) < options.optimum) {
+      const std::optional<double> optimum = textbook.solve(request, view);
+      if (optimum) measured.over_optimum.push_back(100.0 * (r.cost / *optimum - 1.0));
+      if (options.verbose) std::printf("{\"task\": %zu, \"optimum\": %.1f}\n", i, optimum.value_or(0.0));
+    }
     measured.bound.push_back(r.bound);
     measured.duration.push_back(r.trajectory.endTime() - r.trajectory.startTime());
     measured.length.push_back(r.trajectory.length());

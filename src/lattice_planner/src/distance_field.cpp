@@ -15,7 +15,6 @@ constexpr std::size_t kBuckets = 128;  // a power of two
 /// 1), 1 / cos(atan(1/2) / 2).
 constexpr float kDetour = 1.02749F;
 constexpr float kEndSlackCells = 1.5F;
-constexpr float kGuess = 0.97F;  // of the grid's path: what a path is cheaper by that turns freely
 constexpr float kRootTwo = 1.41421356F;
 constexpr float kRootFive = 2.23606798F;
 constexpr int kChangeReach = 3;  // [cells] around a changed cell whose labels may be wrong
@@ -320,18 +319,19 @@ DistanceField::Guess DistanceField::guess(double x, double y) {
   const sarn::CellIndex low{column < cell.x ? cell.x - 1 : cell.x, row < cell.y ? cell.y - 1 : cell.y};
   const float here = labels_[g.index(cell)];
   if (low.x < 0 || low.y < 0 || low.x + 1 >= g.width || low.y + 1 >= g.height) {
-    return {kGuess * here, 0.0F, 0.0F};
+    return {task_.guess_scale * here, 0.0F, 0.0F};
   }
   const float* const c = labels_.data() + g.index(low);
   const float c00 = c[0], c10 = c[1], c01 = c[g.width], c11 = c[g.width + 1];
-  if (std::max(std::max(c00, c10), std::max(c01, c11)) == kInfinity) return {kGuess * here, 0.0F, 0.0F};
+  if (std::max(std::max(c00, c10), std::max(c01, c11)) == kInfinity)
+    return {task_.guess_scale * here, 0.0F, 0.0F};
   const auto fx = static_cast<float>(column - low.x);
   const auto fy = static_cast<float>(row - low.y);
   const float bottom = c00 + fx * (c10 - c00);
   const float top = c01 + fx * (c11 - c01);
   const auto per_cell = static_cast<float>(1.0 / g.resolution);
-  return {kGuess * (bottom + fy * (top - bottom)), ((1.0F - fy) * (c10 - c00) + fy * (c11 - c01)) * per_cell,
-          (top - bottom) * per_cell};
+  return {task_.guess_scale * (bottom + fy * (top - bottom)),
+          ((1.0F - fy) * (c10 - c00) + fy * (c11 - c01)) * per_cell, (top - bottom) * per_cell};
 }
 
 void DistanceField::computeDetours(float extra) {
@@ -352,7 +352,7 @@ float DistanceField::known(const sarn::CellIndex& cell) const {
 
 float DistanceField::knownGuess(const sarn::CellIndex& cell) const {
   const std::size_t index = task_.geometry.index(cell);
-  return settled_[index] != 0 ? kGuess * labels_[index] : kInfinity;
+  return settled_[index] != 0 ? task_.guess_scale * labels_[index] : kInfinity;
 }
 
 }  // namespace lattice_planner

@@ -12,8 +12,9 @@ namespace lattice_planner {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kPeopleShare = 0.7F;              // of what people add to the way: timing avoids much of it
-constexpr double kLeastImprovement = 200.0;       // [expansions]
+constexpr float kPeopleShare = 0.7F;  // of what people add to the way: timing avoids much of it
+constexpr double kHurry = 1.5;
+constexpr double kHurriedWeight = 5.0;
 constexpr double kFullCost = 252.0;               // the largest cost that may be entered
 constexpr std::uint8_t kUnknownCountsAs = 126;    // when it may be entered
 constexpr std::uint32_t kLongestTimeAxis = 2000;  // [time steps]
@@ -107,6 +108,7 @@ void Search::prepare(const PlanRequest& request, const sarn::TimedCostmapView& c
   best_cost_ = std::numeric_limits<double>::infinity();
   closest_ = kInfinity;
   expansions_ = generated_ = enough_expansions_ = 0;
+  hurry_at_ = static_cast<std::size_t>(params_.hurry_after);
   appendLayerAfterHorizon();
   prepareTimeAxis();
   const sarn::CellIndex start = costmap_.geometry.cellAtUnbounded(request.start.x, request.start.y);
@@ -150,15 +152,24 @@ void Search::prepareTimeAxis() {
     return request_.start.t + (step + static_cast<double>(sample + 1) / samples) * params_.time_step;
   };
   while (merge_step_ < kLongestTimeAxis && time(merge_step_, -1) < changes_until) {
-    for (int k = 0; k < samples; ++k) layer_of_sample_.push_back(costmap_.layerAt(time(merge_step_, k)));
+    for (int k = -1; k < samples; ++k) layer_of_sample_.push_back(costmap_.layerAt(time(merge_step_, k)));
     ++merge_step_;
   }
 }
 
+/// Time layer of a sample of an action; -1: of the action's start.
 int Search::layerOf(std::uint32_t step, int sample) const {
   if (step >= merge_step_) return last_layer_;
-  return layer_of_sample_[step * static_cast<std::size_t>(lattice_.samplesPerStep()) +
-                          static_cast<std::size_t>(sample)];
+  const auto samples = static_cast<std::size_t>(lattice_.samplesPerStep()) + 1;
+  return layer_of_sample_[step * samples + static_cast<std::size_t>(sample + 1)];
+}
+
+/// Cost of one sample's time in a cell.
+float Search::exposure(std::size_t index, int layer) const {
+  const float static_part = static_cost_[costmap_.static_costs[index]];
+  if (layer < 0) return static_part;
+  const float social_part = social_cost_[costmap_.layers[static_cast<std::size_t>(layer)][index]];
+  return params_.combine_with_max ? std::max(static_part, social_part) : static_part + social_part;
 }
 
 void Search::prepareDistanceField() {
@@ -172,6 +183,7 @@ void Search::prepareDistanceField() {
   task.goal_x = request_.goal.x;
   task.goal_y = request_.goal.y;
   task.goal_radius = params_.xy_goal_tolerance;
+  if (params_.charge_cells) task.guess_scale = 1.0F;  // octile is longer
   if (escape_.active()) {
     task.exempt = [this](const sarn::CellIndex& cell) { return escape_.exemptsStatic(cell); };
   }
@@ -326,6 +338,7 @@ Search::Outcome Search::run() {
     frontier_.remove(state.f());
     if (state.f() >= best_cost_) continue;
     expand(entry.id);
+    if (hurry_at_ > 0 && best_goal_ == kNoState && expansions_ >= hurry_at_) hurry();
     if (proved()) return Outcome::kProved;
     if (enough_expansions_ > 0 && expansions_ >= enough_expansions_) return Outcome::kGoodEnough;
   }
@@ -357,11 +370,15 @@ void Search::tryAction(const SearchState& from, StateId from_id, const MotionPri
   ++generated_;
   SearchState next;
   next.g = from.g + static_cast<double>(action.base_cost);
-  if (next.g >= best_cost_) return;
+  if (!params_.charge_cells && next.g >= best_cost_) return;
   const sarn::Pose2D& end = action.samples.back();
   next.x = from.x + c * end.x - s * end.y;
   next.y = from.y + s * end.x + c * end.y;
-  if (!costmap_.geometry.cellAt(next.x, next.y)) return;
+  const auto cell = costmap_.geometry.cellAt(next.x, next.y);
+  if (!cell) return;
+  if (params_.charge_cells) {
+    next.g += cellsInsteadOfLength(costmap_.geometry.cellAtUnbounded(from.x, from.y), *cell, action);
+  }
   next.theta = sarn::wrapAngle(from.theta + action.dtheta);
   next.v = action.v;
   next.omega = action.omega;
@@ -371,10 +388,10 @@ void Search::tryAction(const SearchState& from, StateId from_id, const MotionPri
     const StateId known = pool_.find(mergeKey(next));
     if (known != kNoState && pool_[known].g <= next.g) return;
   }
-  float exposure = 0.0F;
+  float charged = 0.0F;
   next.escaping = from.escaping;
-  if (!traverse(from, action, c, s, exposure, next.escaping)) return;
-  next.g += static_cast<double>(exposure);
+  if (!traverse(from, action, c, s, charged, next.escaping)) return;
+  next.g += static_cast<double>(charged);
   const std::uint64_t key = mergeKey(next);
   const StateId known = pool_.find(key);
   if (known != kNoState && pool_[known].g <= next.g) return;
@@ -392,17 +409,28 @@ void Search::tryAction(const SearchState& from, StateId from_id, const MotionPri
   }
 }
 
+/// What the octile distance between two cells costs more than the action's length.
+double Search::cellsInsteadOfLength(const sarn::CellIndex& from, const sarn::CellIndex& to,
+                                    const MotionPrimitive& action) const {
+  const int dx = std::abs(to.x - from.x);
+  const int dy = std::abs(to.y - from.y);
+  const double cells = std::max(dx, dy) + (std::sqrt(2.0) - 1.0) * std::min(dx, dy);
+  return params_.length_weight * (cells * costmap_.geometry.resolution - static_cast<double>(action.length));
+}
+
 /// Collision and exposure along one action: each sample stands for its share of the time step. False: not
 /// allowed.
 bool Search::traverse(const SearchState& from, const MotionPrimitive& action, double c, double s, float& cost,
                       bool& escaping) {
   const sarn::GridGeometry& g = costmap_.geometry;
   sarn::CellIndex last = g.cellAtUnbounded(from.x, from.y);
+  const int layer_at_start = params_.charge_cells ? layerOf(from.step, -1) : -1;
+  if (params_.charge_cells) cost += exposure(g.index(last), layer_at_start);
   for (int k = 0; k < lattice_.samplesPerStep(); ++k) {
     const sarn::Pose2D& sample = action.samples[static_cast<std::size_t>(k)];
     const auto cell = g.cellAt(from.x + c * sample.x - s * sample.y, from.y + s * sample.x + c * sample.y);
     if (!cell) return false;
-    const int layer = layerOf(from.step, k);
+    const int layer = params_.charge_cells ? layer_at_start : layerOf(from.step, k);
     const std::size_t index = g.index(*cell);
     const std::uint8_t static_cost = costmap_.static_costs[index];
     const std::uint8_t social_cost =
@@ -412,9 +440,7 @@ bool Search::traverse(const SearchState& from, const MotionPrimitive& action, do
     } else {
       escaping = false;
     }
-    const float static_part = static_cost_[static_cost];
-    const float social_part = social_cost_[social_cost];
-    cost += params_.combine_with_max ? std::max(static_part, social_part) : static_part + social_part;
+    cost += exposure(index, layer);
     last = *cell;
   }
   return true;
@@ -425,13 +451,26 @@ bool Search::traverse(const SearchState& from, const MotionPrimitive& action, do
 /// expansion.
 void Search::acceptGoal(StateId id) {
   if (best_goal_ == kNoState && params_.improvement_effort > 0.0) {
-    const double more = params_.improvement_effort * static_cast<double>(expansions_) + kLeastImprovement;
+    const double more =
+        params_.improvement_effort * static_cast<double>(expansions_) + params_.least_improvement;
     enough_expansions_ = expansions_ + static_cast<std::size_t>(more);
   }
   best_goal_ = id;
   best_cost_ = pool_[id].g;
   pool_[id].done = true;
   weight_ = weight_ > 1.1 ? 1.0 + 0.5 * (weight_ - 1.0) : 1.0;
+  reorderOpen();
+}
+
+/// No plan after much work: the guess errs here. Better a dearer plan soon than none; its bound tells.
+void Search::hurry() {
+  hurry_at_ *= 2;
+  weight_ = std::min(kHurriedWeight, weight_ * kHurry);
+  reorderOpen();
+}
+
+/// Sorts the open states by the present weight; without those that cannot lead to a cheaper plan.
+void Search::reorderOpen() {
   open_.rebuild([this](OpenList::Entry& entry) {
     SearchState& state = pool_[entry.id];
     if (state.done) return false;
@@ -558,14 +597,19 @@ std::optional<StateId> Search::safeStop(StateId from_id, bool check_collisions) 
     SearchState next;
     const double c = std::cos(from.theta);
     const double s = std::sin(from.theta);
-    float exposure = 0.0F;
+    float charged = 0.0F;
     next.escaping = from.escaping;
-    if (check_collisions && !traverse(from, action, c, s, exposure, next.escaping)) continue;
+    if (check_collisions && !traverse(from, action, c, s, charged, next.escaping)) continue;
     const sarn::Pose2D& end = action.samples.back();
     next.x = from.x + c * end.x - s * end.y;
     next.y = from.y + s * end.x + c * end.y;
     next.theta = sarn::wrapAngle(from.theta + action.dtheta);
-    next.g = from.g + static_cast<double>(action.base_cost) + static_cast<double>(exposure);
+    next.g = from.g + static_cast<double>(action.base_cost) + static_cast<double>(charged);
+    if (params_.charge_cells) {
+      const sarn::GridGeometry& g = costmap_.geometry;
+      next.g +=
+          cellsInsteadOfLength(g.cellAtUnbounded(from.x, from.y), g.cellAtUnbounded(next.x, next.y), action);
+    }
     next.v = action.v;
     next.omega = action.omega;
     next.step = from.step + 1;

@@ -49,8 +49,13 @@ class Search {
   void tryAction(const SearchState& from, StateId from_id, const MotionPrimitive& action, double c, double s);
   [[nodiscard]] bool traverse(const SearchState& from, const MotionPrimitive& action, double c, double s,
                               float& cost, bool& escaping);
+  [[nodiscard]] double cellsInsteadOfLength(const sarn::CellIndex& from, const sarn::CellIndex& to,
+                                            const MotionPrimitive& action) const;
+  [[nodiscard]] float exposure(std::size_t index, int layer) const;
   void open(StateId id);
   void acceptGoal(StateId id);
+  void hurry();
+  void reorderOpen();
   void noteProgress(StateId id);
   [[nodiscard]] bool outOfTime();
   [[nodiscard]] bool proved();
@@ -93,7 +98,7 @@ class Search {
   sarn::Pose2D goal_from_map_;
   std::vector<MotionPrimitive> start_actions_;
   std::vector<std::uint8_t> after_horizon_;  // costs of the people who stand
-  std::vector<int> layer_of_sample_;         // [step * samples + sample], up to merge_step_
+  std::vector<int> layer_of_sample_;         // [step][start and samples], up to merge_step_
   double merge_size_ = 0.05;                 // [m] edge of a merge cell
   std::uint32_t merge_step_ = 0;             // from here on nothing changes with time
   int last_layer_ = -1;
@@ -106,6 +111,7 @@ class Search {
   std::size_t expansions_ = 0;
   std::size_t generated_ = 0;
   std::size_t enough_expansions_ = 0;  // 0: no limit
+  std::size_t hurry_at_ = 0;           // [expansions]
   Clock::time_point deadline_;
 };
 

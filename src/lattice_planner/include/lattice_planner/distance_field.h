@@ -28,6 +28,8 @@ struct DistanceFieldTask {
   /// Lower bound of the cost to go from anywhere in a cell, known otherwise; 0 when nothing is known. A
   /// function of the goal's place and of floor_id. May be empty.
   std::function<float(const sarn::CellIndex&)> floor;
+  float guess_scale =
+      0.97F;  // likely cost of a way / cost of the grid's path, which turns only by 22 degrees
   double floor_radius = 0.0;  // [m] around the goal within which floor is asked
   double floor_id = 0.0;      // tells two floors around one place from each other, for example the goal's yaw
 };

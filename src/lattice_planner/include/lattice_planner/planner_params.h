@@ -30,6 +30,9 @@ struct PlannerParams {
   double static_weight = 1.5;     // [1/s] for staying in static cost 252; smaller costs in proportion
   double social_weight = 8.0;     // [1/s] for staying in social cost 252; smaller costs in proportion
   bool combine_with_max = false;  // charge only the dearer of static and social cost, as the ancestor does
+  // Charge as the ancestor does: the octile distance between an action's first and last cell as its length,
+  // its start as one more sample of cost, people where they are when the action begins.
+  bool charge_cells = false;
 
   // Where the prediction ends: true: only people who stood still remain; false: all stay as the last layer
   // shows them.
@@ -48,12 +51,13 @@ struct PlannerParams {
   // Search.
   double heuristic_weight = 1.3;     // >= 1; first solution by weighted A*, then the weight falls to 1
   double suboptimality_bound = 1.0;  // >= 1; stop as soon as cost <= bound * optimum is proved
-  // Improve until this many times the first solution's work is done (at least 200 expansions); 0: no such
-  // limit.
+  // Improve until this many times the first solution's work is done, and least_improvement; 0: no such limit.
   double improvement_effort = 0.5;
-  int max_expansions = 0;     // 0: only time limits; else a bound that gives the same answer on any machine
-  int max_states = 1000000;   // memory bound: about 90 bytes each
-  double table_radius = 1.0;  // [m] of the obstacle-free cost table around the goal; 0: no table
+  int least_improvement = 200;  // [expansions]
+  int hurry_after = 3000;       // [expansions] without a plan until heuristic_weight rises; 0: never
+  int max_expansions = 0;       // 0: only time limits; else a bound that gives the same answer on any machine
+  int max_states = 1000000;     // memory bound: about 90 bytes each
+  double table_radius = 1.0;    // [m] of the obstacle-free cost table around the goal; 0: no table
   double table_resolution = 0.1;  // [m]
   int table_headings = 48;
 
@@ -76,6 +80,7 @@ struct PlannerParams {
     v("static_weight", p.static_weight, {0.0, 1e6});
     v("social_weight", p.social_weight, {0.0, 1e6});
     v("combine_with_max", p.combine_with_max);
+    v("charge_cells", p.charge_cells);
     v("forget_moving_people", p.forget_moving_people);
     v("forbidden_cost", p.forbidden_cost, {1.0, 254.0});
     v("allow_unknown", p.allow_unknown);
@@ -86,6 +91,8 @@ struct PlannerParams {
     v("heuristic_weight", p.heuristic_weight, {1.0, 100.0});
     v("suboptimality_bound", p.suboptimality_bound, {1.0, 100.0});
     v("improvement_effort", p.improvement_effort, {0.0, 1e6});
+    v("least_improvement", p.least_improvement, {0.0, 1e9});
+    v("hurry_after", p.hurry_after, {0.0, 1e9});
     v("max_expansions", p.max_expansions, {0.0, 2e9});
     v("max_states", p.max_states, {1000.0, 5e7});
     v("table_radius", p.table_radius, {0.0, 5.0});
