@@ -73,13 +73,8 @@ void DistanceField::reset(const DistanceFieldTask& task) {
       }
     }
   }
-  if (lowest_changed <= 0.0F) {
-    clear();
-    seed();
-    return;
-  }
   keepLabelsBelow(lowest_changed);
-  reopen();
+  seed();
 }
 
 void DistanceField::layOut() {
@@ -126,6 +121,10 @@ void DistanceField::clear() {
   }
   first_row_ = task_.geometry.height;
   last_row_ = -1;
+  forgetQueue();
+}
+
+void DistanceField::forgetQueue() {
   buckets_.resize(kBuckets);
   for (auto& bucket : buckets_) bucket.clear();
   first_bucket_ = 0;
@@ -133,36 +132,47 @@ void DistanceField::clear() {
   pending_ = reused_ = 0;
 }
 
+/// Begins the wave at the goal, and at the border of what is known, in the order of the start.
 void DistanceField::seed() {
+  collectBorder();
+  const std::size_t known = border_.size();
+  collectGoal();
+  float least_key = kInfinity;
+  for (const sarn::CellIndex& cell : border_) {
+    least_key = std::min(least_key, keyOf(labels_[task_.geometry.index(cell)], cell));
+  }
+  if (border_.empty()) return;
+  first_number_ = static_cast<std::int64_t>(least_key * buckets_per_cost_);
+  for (std::size_t i = known; i < border_.size(); ++i) push(0.0F, border_[i]);
+  for (std::size_t i = 0; i < known; ++i) {
+    relaxNeighbours(border_[i], static_cast<std::uint32_t>(task_.geometry.index(border_[i])));
+  }
+}
+
+/// Cells that touch the goal and are not known yet; their labels are 0.
+void DistanceField::collectGoal() {
   const double reach = task_.goal_radius + 1.5 * task_.geometry.resolution;
   const int cells = static_cast<int>(std::ceil(reach / task_.geometry.resolution)) + 1;
   const sarn::CellIndex center = task_.geometry.cellAtUnbounded(task_.goal_x, task_.goal_y);
-  std::vector<sarn::CellIndex> seeds;
-  float least_key = kInfinity;
   for (int y = center.y - cells; y <= center.y + cells; ++y) {
     for (int x = center.x - cells; x <= center.x + cells; ++x) {
       const sarn::CellIndex cell{x, y};
       if (!task_.geometry.contains(cell)) continue;
       const Eigen::Vector2d p = task_.geometry.center(cell);
       if (std::hypot(p.x() - task_.goal_x, p.y() - task_.goal_y) > reach) continue;
-      if (map_.thinned()[task_.geometry.index(cell)] == TraversalMap::kBlocked) continue;
-      seeds.push_back(cell);
-      least_key = std::min(least_key, keyOf(0.0F, cell));
+      const std::size_t index = task_.geometry.index(cell);
+      if (settled_[index] != 0 || map_.thinned()[index] == TraversalMap::kBlocked) continue;
+      labels_[index] = 0.0F;
+      border_.push_back(cell);
     }
-  }
-  if (seeds.empty()) return;
-  first_number_ = static_cast<std::int64_t>(least_key * buckets_per_cost_);
-  for (const sarn::CellIndex& cell : seeds) {
-    const auto index = static_cast<std::uint32_t>(task_.geometry.index(cell));
-    labels_[index] = 0.0F;
-    push(0.0F, cell);
   }
 }
 
 /// Whatever lies nearer to the goal than every changed cell is not touched by the change.
 void DistanceField::keepLabelsBelow(float label) {
+  forgetQueue();
+  if (first_row_ > last_row_) return;
   const auto width = static_cast<std::size_t>(task_.geometry.width);
-  reused_ = 0;
   for (std::size_t i = static_cast<std::size_t>(first_row_) * width;
        i < static_cast<std::size_t>(last_row_ + 1) * width; ++i) {
     if (settled_[i] != 0 && labels_[i] < label) {
@@ -174,34 +184,21 @@ void DistanceField::keepLabelsBelow(float label) {
   }
 }
 
-/// Opens the neighbours of the cells that are known, in the order of the new start.
-void DistanceField::reopen() {
-  for (auto& bucket : buckets_) bucket.clear();
-  pending_ = 0;
-  first_bucket_ = 0;
+/// Known cells with a neighbour that is not.
+void DistanceField::collectBorder() {
+  border_.clear();
+  if (first_row_ > last_row_) return;
   const auto width = static_cast<std::size_t>(task_.geometry.width);
-  float least_key = kInfinity;
-  std::vector<std::uint32_t> border;
   for (std::size_t i = static_cast<std::size_t>(first_row_) * width;
        i < static_cast<std::size_t>(last_row_ + 1) * width; ++i) {
     if (settled_[i] == 0) continue;
     const sarn::CellIndex cell = cellOf(static_cast<std::uint32_t>(i));
-    bool inner = true;
-    for (const Move& move : moves_) {
-      if (!task_.geometry.contains({cell.x + move.dx, cell.y + move.dy})) continue;
-      inner = inner && settled_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + move.offset)] != 0;
-    }
-    if (inner) continue;
-    border.push_back(static_cast<std::uint32_t>(i));
-    least_key = std::min(least_key, keyOf(labels_[i], cell));
+    const bool inner = std::all_of(moves_.begin(), moves_.end(), [&](const Move& move) {
+      return !task_.geometry.contains({cell.x + move.dx, cell.y + move.dy}) ||
+             settled_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + move.offset)] != 0;
+    });
+    if (!inner) border_.push_back(cell);
   }
-  if (border.empty()) {
-    clear();
-    seed();
-    return;
-  }
-  first_number_ = static_cast<std::int64_t>(least_key * buckets_per_cost_);
-  for (const std::uint32_t index : border) relaxNeighbours(cellOf(index), index);
 }
 
 sarn::CellIndex DistanceField::cellOf(std::uint32_t index) const {

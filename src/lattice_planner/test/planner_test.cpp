@@ -306,6 +306,8 @@ TEST(People, costByTheSecondWhateverTheSamplingAndTheResolution) {
       PlannerParams params = defaults();
       params.collision_check_distance = check;
       params.table_radius = 0.0;
+      params.improvement_effort = 0.0;  // the optimum, which is the same for all
+      params.hurry_after = 0;
       LatticePlanner planner(params);
       World world = World::room(3.0, 1.0, resolution);
       world.addLayers(1, 0.5);

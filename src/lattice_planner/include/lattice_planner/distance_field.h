@@ -91,7 +91,9 @@ class DistanceField {
   void clear();
   void seed();
   void keepLabelsBelow(float label);
-  void reopen();
+  void forgetQueue();
+  void collectGoal();
+  void collectBorder();
   bool advanceOneBucket();
   void relaxNeighbours(const sarn::CellIndex& cell, std::uint32_t index);
   template <bool kInterior>
@@ -107,10 +109,11 @@ class DistanceField {
   TraversalMap map_;
   std::function<bool()> keep_going_;
   std::vector<Move> moves_;
-  std::array<float, 256> half_rate_{};  // [cost per half cell edge] by thinned cost
-  std::vector<float> labels_;           // infinity: not reached
-  std::vector<std::uint8_t> settled_;   // 1: the label is final
-  int first_row_ = 0;                   // rows with labels
+  std::array<float, 256> half_rate_{};   // [cost per half cell edge] by thinned cost
+  std::vector<float> labels_;            // infinity: not reached
+  std::vector<std::uint8_t> settled_;    // 1: the label is final
+  std::vector<sarn::CellIndex> border_;  // where the wave begins
+  int first_row_ = 0;                    // rows with labels
   int last_row_ = -1;
   std::vector<std::vector<Entry>> buckets_;  // ring, each half a cheapest straight step wide
   std::size_t first_bucket_ = 0;
