@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a map, people and a request: the planner must answer with one outcome, and every trajectory
 // must be finite, begin at the start and end standing.
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,10 +20,10 @@ class Bytes {
   /// Mostly within [low, high]; one in 256 is any double: NaN, infinite, huge.
   double number(double low, double high) {
     if (byte() == 255) {
-      std::array<std::uint8_t, sizeof(double)> raw{};
-      for (std::uint8_t& b : raw) b = byte();
+      std::uint64_t raw = 0;
+      for (int i = 0; i < 8; ++i) raw = raw << 8U | byte();
       double value = 0.0;
-      std::memcpy(&value, raw.data(), sizeof value);
+      std::memcpy(&value, &raw, sizeof value);
       return value;
     }
     return low + (high - low) * (byte() * 256.0 + byte()) / 65535.0;
