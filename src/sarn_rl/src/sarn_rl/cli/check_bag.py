@@ -27,8 +27,8 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "--tolerance",
         type=float,
-        default=0.3,
-        help="largest difference of a feature to the truth [m, m/s, rad] (0.3: people seen with noise)",
+        default=0.5,
+        help="largest difference of a feature to the truth [m, m/s, rad] (0.5: people seen with noise)",
     )
     parser.add_argument("--json", type=Path, help="write the figures here")
     parser.set_defaults(run=run)
