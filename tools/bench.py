@@ -131,6 +131,11 @@ def planner() -> Figures:
     return figures
 
 
+def ompl() -> Figures:
+    """The lattice planner beside OMPL's planners: tasks of half a second each."""
+    return _named_values([str(PROGRAMS / "lattice_planner_ompl" / "lattice_planner_ompl_bench")])
+
+
 def _dropped(bag_file: Path) -> int:
     """Messages missing in the numbering of the publishers (odometry, scan), and scans missing in time."""
     import rosbag
@@ -183,6 +188,7 @@ BENCHES: Dict[str, Callable[[], Figures]] = {
     "depth": depth,
     "social_layers": social_layers,
     "planner": planner,
+    "ompl": ompl,
     "learning": learning,
     "stack": stack,
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lattice_planner/trajectory_cost.h"
+#include "lattice_planner_ompl/ompl_planner.h"
 #include "sarn_common_ros/conversions.h"
 #include "sarn_navigation_ros/navigator_topics.h"
 #include "sarn_navigation_ros/path_conversions.h"
@@ -41,7 +42,13 @@ std::shared_ptr<const sarn::TimedCostmapView> makeScene(
   return {scene, &scene->view};
 }
 
-PlanFunction makePlanFunction(const std::shared_ptr<LivePlanner>& planner) {
+PlanFunction makePlanFunction(const std::string& search, const std::shared_ptr<LivePlanner>& planner) {
+  if (search != "lattice") {
+    const auto algorithm = lattice_planner_ompl::algorithmOf(search.substr(std::string("ompl_").size()));
+    return [algorithm, planner](const auto& request, const auto& view) {
+      return lattice_planner_ompl::OmplPlanner(algorithm, planner->params()).plan(request, view);
+    };
+  }
   return [planner](const lattice_planner::PlanRequest& request, const sarn::TimedCostmapView& view) {
     return planner->plan(request, view);
   };
@@ -62,7 +69,8 @@ NavigatorNode::NavigatorNode(const ros::NodeHandle& nh, const ros::NodeHandle& p
       tf_listener_(tf_buffer_),
       costmap_(config_.costmap),
       planner_(std::make_shared<LivePlanner>(config_.planner)),
-      navigator_(config_.navigator, config_.follower, makePlanFunction(planner_), makeCostFunction(planner_)),
+      navigator_(config_.navigator, config_.follower, makePlanFunction(config_.node.search, planner_),
+                 makeCostFunction(planner_)),
       display_(private_nh_, config_.node.global_frame, config_.node.visualization_frequency),
       diagnostics_(nh_, private_nh_, kStalePlans / config_.navigator.planner_frequency),
       lockstep_(nh_, topics::kLockstep) {

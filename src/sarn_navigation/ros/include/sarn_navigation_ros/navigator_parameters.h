@@ -16,6 +16,7 @@ struct NavigatorNodeParams {
   std::string global_frame = "map";
   std::string robot_base_frame = "base_footprint";
   std::string social = "timed";     // timed: people move; frozen: people stand where they are now; off: none
+  std::string search = "lattice";   // lattice, or a baseline of OMPL: ompl_sst, ompl_rrt, ompl_kpiece
   double costmap_frequency = 10.0;  // [Hz]
   double visualization_frequency = 2.0;  // [Hz] simulated time; only while somebody listens
   double pose_patience = 10.0;           // [s] a goal waits this long for the robot's pose and the map
@@ -26,14 +27,19 @@ struct NavigatorNodeParams {
     v("global_frame", p.global_frame);
     v("robot_base_frame", p.robot_base_frame);
     v("social", p.social);
+    v("search", p.search);
     v("costmap_frequency", p.costmap_frequency, {0.5, 50.0});
     v("visualization_frequency", p.visualization_frequency, {0.1, 20.0});
     v("pose_patience", p.pose_patience, {0.0, 600.0});
     v("lockstep", p.lockstep);
   }
   [[nodiscard]] std::vector<std::string> conflicts() const {
-    if (social == "timed" || social == "frozen" || social == "off") return {};
-    return {"social: must be timed, frozen or off"};
+    std::vector<std::string> all;
+    if (social != "timed" && social != "frozen" && social != "off")
+      all.emplace_back("social: must be timed, frozen or off");
+    if (search != "lattice" && search != "ompl_sst" && search != "ompl_rrt" && search != "ompl_kpiece")
+      all.emplace_back("search: must be lattice, ompl_sst, ompl_rrt or ompl_kpiece");
+    return all;
   }
 };
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "lattice_planner/plan_types.h"
+#include "lattice_planner/planner_params.h"
+#include "sarn_common/timed_costmap_view.h"
+
+namespace lattice_planner_ompl {
+
+/// OMPL's planners for motions with dynamics, as baselines on the lattice planner's problem: its limits, its
+/// rule of what is forbidden, its cost.
+enum class OmplAlgorithm {
+  kSst,     // Li, Littlefield and Bekris, "Asymptotically optimal sampling-based kinodynamic planning", 2016
+  kRrt,     // LaValle and Kuffner, "Randomized kinodynamic planning", 2001
+  kKpiece,  // Sucan and Kavraki, "Kinodynamic motion planning by interior-exterior cell exploration", 2008
+};
+/// "sst", "rrt" or "kpiece"; throws std::invalid_argument otherwise.
+[[nodiscard]] OmplAlgorithm algorithmOf(const std::string& name);
+
+struct OmplOutcome {
+  lattice_planner::PlanResult result;
+  double first_solution_time = 0.0;  // [s] wall time to the first exact solution; 0: none
+};
+
+/// Answers what LatticePlanner answers, by one of OMPL's planners. Not thread-safe. OMPL has one seed a
+/// process, the first one given; how many numbers are drawn depends on the machine.
+class OmplPlanner {
+ public:
+  OmplPlanner(OmplAlgorithm algorithm, const lattice_planner::PlannerParams& params, std::uint32_t seed = 1);
+
+  /// As LatticePlanner::plan: the trajectory ends standing still; kPartial when the goal was not reached.
+  [[nodiscard]] lattice_planner::PlanResult plan(const lattice_planner::PlanRequest& request,
+                                                 const sarn::TimedCostmapView& costs);
+  [[nodiscard]] OmplOutcome planMeasured(const lattice_planner::PlanRequest& request,
+                                         const sarn::TimedCostmapView& costs);
+
+ private:
+  OmplAlgorithm algorithm_;
+  lattice_planner::PlannerParams params_;
+};
+
+}  // namespace lattice_planner_ompl

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lattice_planner_ompl/lattice_as_ompl.h"
+
+#include <ompl/control/PathControl.h>
+#include <ompl/control/spaces/RealVectorControlSpace.h>
+
+#include <memory>
+
+namespace lattice_planner_ompl {
+
+namespace ob = ompl::base;
+namespace oc = ompl::control;
+
+LatticeAsOmpl::LatticeAsOmpl(const ob::SpaceInformationPtr& si, const Problem& problem)
+    : ob::Planner(si, "lattice"), problem_(problem), planner_(problem.params) {
+  specs_.approximateSolutions = true;
+  specs_.optimizingPaths = true;
+  specs_.directed = true;
+  declareParam<double>("time_limit", this, &LatticeAsOmpl::setTimeLimit, &LatticeAsOmpl::timeLimit,
+                       "0.01:10");
+}
+
+ob::PlannerStatus LatticeAsOmpl::solve(const ob::PlannerTerminationCondition& condition) {
+  checkValidity();
+  const auto* goal = dynamic_cast<const BrakingGoal*>(pdef_->getGoal().get());
+  if (goal == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
+  const ob::State* start = pis_.nextStart();
+  if (start == nullptr) return ob::PlannerStatus::INVALID_START;
+  if (condition) return ob::PlannerStatus::TIMEOUT;
+  const auto result = planner_.plan({pointOf(start), goal->pose(), time_limit_}, problem_.costs);
+  if (!lattice_planner::isDrivable(result.status)) return ob::PlannerStatus::TIMEOUT;
+  auto path = std::make_shared<oc::PathControl>(si_);
+  const auto* si = static_cast<const oc::SpaceInformation*>(si_.get());
+  oc::Control* control = si->allocControl();
+  ob::State* state = si_->allocState();
+  const auto& points = result.trajectory.points;
+  setState(state, points.front());
+  path->append(state);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double dt = points[i].t - points[i - 1].t;
+    double* a = control->as<oc::RealVectorControlSpace::ControlType>()->values;
+    a[0] = (points[i].v - points[i - 1].v) / dt;
+    a[1] = (points[i].omega - points[i - 1].omega) / dt;
+    setState(state, points[i]);
+    path->append(state, control, dt);
+  }
+  si_->freeState(state);
+  si->freeControl(control);
+  const bool complete = result.status == lattice_planner::PlanStatus::kComplete;
+  ob::PlannerSolution solution(path);
+  solution.setPlannerName(getName());
+  solution.setOptimized(pdef_->getOptimizationObjective(), ob::Cost(result.cost), complete);
+  if (!complete) solution.setApproximate(goal->distanceGoal(path->getStates().back()));
+  pdef_->addSolutionPath(solution);
+  return complete ? ob::PlannerStatus::EXACT_SOLUTION : ob::PlannerStatus::APPROXIMATE_SOLUTION;
+}
+
+}  // namespace lattice_planner_ompl
