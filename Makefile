@@ -12,7 +12,7 @@ JOBS ?= 2
 TORCH_INDEX ?=
 export JOBS TORCH_INDEX
 
-.PHONY: help setup build sim view test check bench train table clean distclean
+.PHONY: help setup build sim map view test check bench train table clean distclean
 
 help:  ## Show this list
 	@printf 'SARN: a TurtleBot2 that drives among people.\n\nTargets:\n'
@@ -40,6 +40,10 @@ sim:  ## Set up, build, and drive the robot through a scenario (exit code 0: all
 
 view:  ## RViz on a running simulation or robot
 	@tools/setup gui && tools/build && tools/with_workspace roslaunch --wait sarn_bringup view.launch $(ARGS)
+
+map:  ## The simulated robot drives through the office and draws a map: build/map/office.{pgm,yaml}
+	@tools/setup run && tools/build && mkdir -p build/map && \
+	  tools/with_workspace roslaunch sarn_bringup mapping.launch map_file:=$(CURDIR)/build/map/office $(ARGS)
 
 test:  ## Set up, check, build, and run every test
 	@tools/run_tests

@@ -40,6 +40,10 @@ GOALS: Dict[str, Tuple[str, float]] = {
     "policy.decision_ms.5_humans": ("<", 1.0),
     "policy.decision_ms.20_humans": ("<", 4.0),
     "train.sarl_per.minutes": ("<", 15.0),
+    "localization.error_m.p95": ("<", 0.10),
+    "localization.error_deg.p95": ("<", 3.0),
+    "localization.kidnapped_within_20s": (">", 1.0),
+    "slam.wall_error_m.p95": ("<", 0.10),
     "stack.realtime_factor": (">", 5.0),
     "stack.dropped_messages": ("<", 0.0),
 }
@@ -86,6 +90,18 @@ def depth() -> Figures:
 def social_layers() -> Figures:
     """One update of all time layers."""
     return _named_values([str(PROGRAMS / "social_costmap" / "social_costmap_bench")])
+
+
+def localization() -> Figures:
+    """Drives through the office among people: localising on its map, and drawing a new one."""
+    programs = PROGRAMS / "sarn_localization"
+    if not (programs / "localization_bench").is_file():
+        raise BenchError("localization_bench is not built; it needs MRPT (libmrpt-slam-dev)")
+    launch = str(ROOT / "launch")
+    return {
+        **_named_values([str(programs / "localization_bench"), launch]),
+        **_named_values([str(programs / "slam_bench"), launch]),
+    }
 
 
 def _planner_bench(name: str, options: List[str], params: str) -> Figures:
@@ -187,6 +203,7 @@ BENCHES: Dict[str, Callable[[], Figures]] = {
     "world": world,
     "depth": depth,
     "social_layers": social_layers,
+    "localization": localization,
     "planner": planner,
     "ompl": ompl,
     "learning": learning,

@@ -5,6 +5,7 @@
 
 #include "sarn_common/parameters.h"
 #include "sarn_localization/localization_params.h"
+#include "sarn_localization/slam_params.h"
 
 namespace sarn_localization {
 namespace {
@@ -21,6 +22,7 @@ TEST(Parameters, shippedYamlNamesEveryField) {
   expectShippedYamlMatches<MapServerParams>("config/map_server.yaml");
   expectShippedYamlMatches<TruthLocalizationParams>("config/truth_localization.yaml");
   expectShippedYamlMatches<LocalizationParams>("config/localization.yaml");
+  expectShippedYamlMatches<SlamParams>("config/slam.yaml");
 }
 
 TEST(Parameters, contradictionsOfLocalizationAreProblems) {

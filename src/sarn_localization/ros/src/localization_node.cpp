@@ -14,29 +14,20 @@ namespace sarn_localization {
 namespace {
 
 constexpr double kWarningPeriod = 5.0;  // [s] between repeated warnings
-constexpr double kFuture = 1.0;         // [s] a scan may be stamped ahead of the clock
-constexpr std::uint32_t kScanQueue = 10;
 
 }  // namespace
 
 LocalizationNode::LocalizationNode(ros::NodeHandle& nh, const LocalizationParams& params)
     : params_(params),
       localizer_(params),
-      order_(kFuture),
-      listener_(transforms_),
       pose_publisher_(nh.advertise<geometry_msgs::PoseWithCovarianceStamped>(kPoseTopic, 2, true)),
       particle_publisher_(nh.advertise<geometry_msgs::PoseArray>(kParticleTopic, 2, true)),
       global_localization_(
           nh.advertiseService(kGlobalLocalizationService, &LocalizationNode::onGlobalLocalization, this)),
-      lockstep_(nh, kLocalizationLockstepTopic),
       map_subscriber_(nh.subscribe(kMapTopic, 1, &LocalizationNode::onMap, this)),
       initial_pose_subscriber_(nh.subscribe(kInitialPoseTopic, 2, &LocalizationNode::onInitialPose, this)),
-      scan_subscriber_(nh, kScanTopic, kScanQueue),
-      scans_(scan_subscriber_, transforms_, params_.odom_frame_id, kScanQueue, nh) {
-  scans_.registerCallback([this](const sensor_msgs::LaserScanConstPtr& scan) { onScan(scan); });
-  scans_.registerFailureCallback([this](const sensor_msgs::LaserScanConstPtr& scan, auto reason) {
-    onScanWithoutTransform(scan, reason);
-  });
+      intake_(nh, params_.odom_frame_id, params_.base_frame_id, kLocalizationLockstepTopic,
+              [this](const ScanIntake::Input& input) { use(input); }) {
   if (params_.set_initial_pose) {
     PoseEstimate start{{params_.initial_pose_x, params_.initial_pose_y, params_.initial_pose_a},
                        Eigen::Matrix3d::Zero()};
@@ -75,11 +66,8 @@ void LocalizationNode::onInitialPose(const geometry_msgs::PoseWithCovarianceStam
                             << "' is expected, this one is in '" << message.header.frame_id << "'; ignored");
     return;
   }
-  // Where the odometry was when the pose was true; when that is not known, where it is now.
-  const bool known =
-      transforms_.canTransform(params_.odom_frame_id, params_.base_frame_id, message.header.stamp);
-  const auto robot_in_odom =
-      lookUp(params_.odom_frame_id, params_.base_frame_id, known ? message.header.stamp : ros::Time());
+  // Where the odometry was when the pose was true.
+  const auto robot_in_odom = intake_.robotInOdom(message.header.stamp);
   localizer_.setPose(*pose, robot_in_odom.value_or(sarn::Pose2D{}));
   ROS_INFO_STREAM("initial pose (" << pose->pose.x << ", " << pose->pose.y << ", " << pose->pose.theta
                                    << ")");
@@ -92,78 +80,16 @@ bool LocalizationNode::onGlobalLocalization(std_srvs::Empty::Request& /*request*
   return true;
 }
 
-void LocalizationNode::onScan(const sensor_msgs::LaserScanConstPtr& scan) {
-  if (usable(*scan)) use(*scan);
-  lockstep_.acknowledge(scan->header.stamp);
-}
-
-void LocalizationNode::onScanWithoutTransform(
-    const sensor_msgs::LaserScanConstPtr& scan,
-    tf2_ros::filter_failure_reasons::FilterFailureReason /*reason*/) {
-  ROS_WARN_STREAM_THROTTLE(kWarningPeriod, scan_subscriber_.getTopic()
-                                               << ": no transform from '" << scan->header.frame_id << "' to '"
-                                               << params_.odom_frame_id << "' at the scan's stamp "
-                                               << scan->header.stamp << "; scan ignored");
-}
-
-bool LocalizationNode::usable(const sensor_msgs::LaserScan& scan) {
-  const std::string topic = scan_subscriber_.getTopic();
-  const std::string problem = scanProblem(scan);
-  if (!problem.empty()) {
-    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, topic << ": " << problem << "; scan ignored");
-    return false;
-  }
-  switch (order_.check(scan.header.stamp, ros::Time::now())) {
-    case ScanOrder::kNext:
-      break;
-    case ScanOrder::kClockJumpedBack:
-      ROS_WARN_STREAM_THROTTLE(kWarningPeriod, topic << ": the clock jumped back; scans count anew");
-      return false;
-    case ScanOrder::kOutOfOrder:
-      ROS_WARN_STREAM_THROTTLE(kWarningPeriod, topic << ": stamp " << scan.header.stamp
-                                                     << " is not after the last one; scan ignored");
-      return false;
-    case ScanOrder::kFuture:
-      ROS_WARN_STREAM_THROTTLE(kWarningPeriod, topic << ": stamp " << scan.header.stamp << " is more than "
-                                                     << kFuture << " s ahead of the clock; scan ignored");
-      return false;
-  }
-  if (beam_count_ != 0 && beam_count_ != scan.ranges.size()) {
-    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, topic << ": " << scan.ranges.size() << " beams, before it were "
-                                                   << beam_count_ << "; taken as they are");
-  }
-  beam_count_ = scan.ranges.size();
-  return true;
-}
-
-std::optional<sarn::Pose2D> LocalizationNode::lookUp(const std::string& parent, const std::string& child,
-                                                     const ros::Time& stamp) {
-  try {
-    const auto pose = sarn::fromMessage(transforms_.lookupTransform(parent, child, stamp).transform);
-    if (!pose) {
-      ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "tf: '" << child << "' in '" << parent
-                                                       << "' holds NaN or is not upright and planar");
-    }
-    return pose;
-  } catch (const tf2::TransformException& error) {
-    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "tf: " << error.what());
-    return std::nullopt;
-  }
-}
-
-void LocalizationNode::use(const sensor_msgs::LaserScan& scan) {
+void LocalizationNode::use(const ScanIntake::Input& input) {
   if (!localizer_.hasMap()) {
     ROS_WARN_STREAM_THROTTLE(kWarningPeriod, map_subscriber_.getTopic() << ": no map yet; scans wait for it");
   }
-  const auto base_from_sensor = lookUp(params_.base_frame_id, scan.header.frame_id, scan.header.stamp);
-  const auto robot_in_odom = lookUp(params_.odom_frame_id, params_.base_frame_id, scan.header.stamp);
-  if (!base_from_sensor || !robot_in_odom) return;
   const ScanBeams beams =
-      selectBeams(fromMessage(scan), *base_from_sensor,
+      selectBeams(input.scan, input.base_from_sensor,
                   {static_cast<std::size_t>(params_.laser_max_beams), params_.laser_min_range,
                    params_.laser_max_range, params_.laser_range_bias});
-  if (localizer_.addScan(*robot_in_odom, beams)) publishPose(scan.header.stamp);
-  broadcast(scan.header.stamp);
+  if (localizer_.addScan(input.robot_in_odom, beams)) publishPose(input.stamp);
+  broadcast(input.stamp);
 }
 
 void LocalizationNode::publishPose(const ros::Time& stamp) {

@@ -3,10 +3,12 @@
 
 namespace sarn_localization {
 
-inline constexpr char kMapTopic[] = "map";                   // nav_msgs/OccupancyGrid, latched
-inline constexpr char kMapMetadataTopic[] = "map_metadata";  // nav_msgs/MapMetaData, latched
-inline constexpr char kStaticMapService[] = "static_map";    // nav_msgs/GetMap
-inline constexpr char kTruthTopic[] = "ground_truth/odom";   // nav_msgs/Odometry, map -> base_footprint
+inline constexpr char kMapTopic[] = "map";                     // nav_msgs/OccupancyGrid, latched
+inline constexpr char kMapMetadataTopic[] = "map_metadata";    // nav_msgs/MapMetaData, latched
+inline constexpr char kDynamicMapService[] = "dynamic_map";    // nav_msgs/GetMap
+inline constexpr char kSlamLockstepTopic[] = "lockstep/slam";  // std_msgs/Time
+inline constexpr char kStaticMapService[] = "static_map";      // nav_msgs/GetMap
+inline constexpr char kTruthTopic[] = "ground_truth/odom";     // nav_msgs/Odometry, map -> base_footprint
 inline constexpr char kLockstepTopic[] = "/lockstep/truth_localization";
 inline constexpr char kScanTopic[] = "scan";                // sensor_msgs/LaserScan
 inline constexpr char kInitialPoseTopic[] = "initialpose";  // geometry_msgs/PoseWithCovarianceStamped

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Prints JSON lines: how far the walls of a map that was built on a drive lie from the true ones, and how far
+// off the robot is when the loop closes. Usage: slam_bench LAUNCH_DIRECTORY [SEED [OUTPUT_MAP [PARAMS.yaml]]]
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sarn_localization/grid_slam.h"
+#include "sarn_localization/wall_distance.h"
+#include "simulated_drive.h"
+
+namespace {
+
+double percentile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? -1.0
+                        : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+int run(const std::filesystem::path& launch, std::uint64_t seed, const char* output,
+        sarn_localization::SlamParams params) {
+  constexpr double kTimeLimit = 900.0;  // [s]
+  const auto scenario = kobuki_sim::loadScenario(launch / "scenarios/office.yaml");
+  sarn_localization::SimulatedDrive drive(scenario, sarn_localization::loadTour(launch / "tours/office.yaml"),
+                                          seed, true);
+  params.random_seed = static_cast<int>(seed);
+  sarn_localization::GridSlam slam(params);
+  auto sample = drive.next();
+  const sarn::Pose2D world_from_map = sample.robot_in_map;  // the map begins at the first scan
+  double greatest_error = 0.0;
+  double error = 0.0;
+  int used = 0;
+  for (; drive.laps() < 1 && sample.time < kTimeLimit; sample = drive.next()) {
+    if (!slam.addScan(sample.robot_in_odom, drive.baseFromSensor(), sample.scan)) continue;
+    ++used;
+    const sarn::Pose2D found = world_from_map * *slam.mapFromOdom() * sample.robot_in_odom;
+    error = (found.position() - sample.robot_in_map.position()).norm();
+    greatest_error = std::max(greatest_error, error);
+  }
+  const auto map = slam.map();
+  if (!map) throw std::runtime_error("no map was built");
+  const sarn_localization::WallDistance truth(drive.world().map().map());
+  std::vector<double> errors;
+  for (int y = 0; y < map->geometry.height; ++y) {
+    for (int x = 0; x < map->geometry.width; ++x) {
+      if (map->at({x, y}) != sarn::kMapOccupied) continue;
+      errors.push_back(truth.at(world_from_map * map->geometry.center({x, y}), 1.0));
+    }
+  }
+  std::fprintf(stderr,
+               "seed %d: %.0f s, %.0f m, %d scans used, pose error %.3f m at the end, %.3f m at most\n",
+               static_cast<int>(seed), sample.time, drive.driven(), used, error, greatest_error);
+  std::printf("{\"slam.wall_error_m.p95\": %.4f}\n", percentile(errors, 0.95));
+  std::printf("{\"slam.wall_error_m.median\": %.4f}\n", percentile(errors, 0.5));
+  std::printf("{\"slam.loop_error_m\": %.4f}\n", error);
+  if (output != nullptr) sarn::saveMap(*map, output);
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: slam_bench LAUNCH_DIRECTORY [SEED [OUTPUT_MAP [PARAMS.yaml]]]\n");
+    return EXIT_FAILURE;
+  }
+  try {
+    sarn_localization::SlamParams params;
+    if (argc > 4) {
+      for (const auto& problem : sarn::setFromYaml(YAML::LoadFile(argv[4]), params)) {
+        throw std::runtime_error(std::string(argv[4]) + ": " + problem);
+      }
+    }
+    return run(argv[1], argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1, argc > 3 ? argv[3] : nullptr,
+               params);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sarn_common/parameters.h"
+
+namespace sarn_localization {
+
+/// Grid mapping with particles; the names are gmapping's where they mean the same.
+struct SlamParams {
+  // Frames and rates, used by the node
+  std::string map_frame = "map";
+  std::string odom_frame = "odom";
+  std::string base_frame = "base_footprint";
+  double tf_delay = 0.2;             // [s] map -> odom is stamped this far ahead of the scan
+  double map_update_interval = 2.0;  // [s] between published maps
+
+  // Particles
+  int particles = 30;
+  double resampleThreshold = 0.5;  // [1] effective share of the particles below which they are resampled
+  double linearUpdate = 0.2;       // [m] of motion before a scan is used
+  double angularUpdate = 0.15;     // [rad]
+  int random_seed = 1;             // of everything random
+
+  // Motion: standard deviations per motion
+  double srr = 0.01;   // [m/m] of translation, from translation
+  double srt = 0.005;  // [m/rad] of translation, from rotation
+  double str = 0.005;  // [rad/m] of rotation, from translation
+  double stt = 0.01;   // [rad/rad] of rotation, from rotation
+
+  // Scan and map
+  double maxUrange = 6.0;            // [m] farther returns are not used
+  double minRange = 0.45;            // [m]
+  double laser_range_bias = 0.0023;  // [1/m] a range r is measured this times r^2 too short (Xtion, ten rows)
+  int lskip = 3;                     // beams left out between two that are used
+  double sigma = 0.1;                // [m] of a return around its wall
+  double likelihood_exponent = 0.03;  // [1] neighbouring beams err together: (product of beams)^exponent
+  double delta = 0.05;                // [m] edge of a map cell
+  double occ_thresh = 0.5;            // [1] probability from which a cell is published as occupied
+
+  template <class Self, class Visitor>
+  static void visit(Self& p, Visitor& v) {
+    v("map_frame", p.map_frame);
+    v("odom_frame", p.odom_frame);
+    v("base_frame", p.base_frame);
+    v("tf_delay", p.tf_delay, {0.0, 5.0});
+    v("map_update_interval", p.map_update_interval, {0.1, 60.0});
+    v("particles", p.particles, {1.0, 1000.0});
+    v("resampleThreshold", p.resampleThreshold, {0.0, 1.0});
+    v("linearUpdate", p.linearUpdate, {0.0, 5.0});
+    v("angularUpdate", p.angularUpdate, {0.0, 6.3});
+    v("random_seed", p.random_seed, {0.0, 2147483647.0});
+    v("srr", p.srr, {0.0, 1.0});
+    v("srt", p.srt, {0.0, 1.0});
+    v("str", p.str, {0.0, 1.0});
+    v("stt", p.stt, {0.0, 1.0});
+    v("maxUrange", p.maxUrange, {0.1, 200.0});
+    v("minRange", p.minRange, {0.0, 100.0});
+    v("laser_range_bias", p.laser_range_bias, {-0.1, 0.1});
+    v("lskip", p.lskip, {0.0, 1000.0});
+    v("sigma", p.sigma, {0.005, 1.0});
+    v("likelihood_exponent", p.likelihood_exponent, {0.001, 1.0});
+    v("delta", p.delta, {0.01, 1.0});
+    v("occ_thresh", p.occ_thresh, {0.01, 0.99});
+  }
+  [[nodiscard]] std::vector<std::string> conflicts() const {
+    std::vector<std::string> problems;
+    if (map_frame.empty() || odom_frame.empty() || base_frame.empty() || map_frame == odom_frame ||
+        odom_frame == base_frame || map_frame == base_frame) {
+      problems.emplace_back("map_frame, odom_frame, base_frame: must be three different names");
+    }
+    if (minRange >= maxUrange) problems.emplace_back("minRange: must be less than maxUrange");
+    return problems;
+  }
+};
+
+}  // namespace sarn_localization
