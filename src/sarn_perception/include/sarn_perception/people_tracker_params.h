@@ -12,7 +12,7 @@ struct PeopleTrackerParams {
   std::string odom_frame = "odom";            // people are tracked in; must not jump
   std::string base_frame = "base_footprint";  // level, on the floor
   bool use_bodies = true;                     // look for torsos in the depth image too
-  double body_rate = 10.0;                    // [Hz] of that, at most
+  double body_rate = 30.0;                    // [Hz] of that, at most
   double rate = 15.0;                         // [Hz] of publication, at most
   double sensor_timeout = 0.5;                // [s] without a scan, then people are only predicted
   double localization_timeout = 2.0;          // [s] map -> odom may be this much older than a scan

@@ -100,13 +100,13 @@ struct BodyParams {
 
 /// Who is there, and where they go (PeopleTracker).
 struct TrackerParams {
-  double acceleration_density = 0.15;  // [m^2/s^3] power of a walking person's white acceleration
-  double standing_density = 0.01;      // [m^2/s^3] of a standing person's
+  double acceleration_density = 0.60;  // [m^2/s^3] power of a walking person's white acceleration
+  double standing_density = 0.03;      // [m^2/s^3] of a standing person's
   double walking_speed = 0.5;          // [m/s] from here on a person counts as walking, in the two above
   double initial_speed_sigma = 0.6;    // [m/s] on each axis, of a new track
-  double pair_sigma = 0.06;            // [m] of a person's middle between two legs, on each axis
-  double leg_sigma = 0.14;             // [m] of a person's middle when one leg is seen
-  double body_sigma = 0.06;            // [m] of a person's middle from the torso
+  double pair_sigma = 0.10;            // [m] of a person's middle between two legs, on each axis
+  double leg_sigma = 0.20;             // [m] of a person's middle when one leg is seen
+  double body_sigma = 0.04;            // [m] of a person's middle from the torso
   double gait_sigma = 0.16;            // [m] of a leg about a person's middle, in the association
   double gate = 9.21;                  // squared Mahalanobis distance; 99 % in two dimensions
   double max_gate_distance = 0.9;      // [m] however uncertain a track is
