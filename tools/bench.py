@@ -44,6 +44,10 @@ GOALS: Dict[str, Tuple[str, float]] = {
     "localization.error_deg.p95": ("<", 3.0),
     "localization.kidnapped_within_20s": (">", 1.0),
     "slam.wall_error_m.p95": ("<", 0.10),
+    **{f"tracking.precision.{sensor}": (">", 0.95) for sensor in ("xtion", "lidar")},
+    **{f"tracking.recall.{sensor}": (">", 0.9) for sensor in ("xtion", "lidar")},
+    **{f"tracking.velocity_rmse.{sensor}": ("<", 0.15) for sensor in ("xtion", "lidar")},
+    **{f"tracking.ghost_s.{sensor}": ("<", 1.0) for sensor in ("xtion", "lidar")},
     "stack.realtime_factor": (">", 5.0),
     "stack.dropped_messages": ("<", 0.0),
 }
@@ -199,6 +203,15 @@ def learning() -> Figures:
     return _named_values([sys.executable, str(ROOT / "src" / "sarn_rl" / "bench" / "bench_policy.py")])
 
 
+def tracking() -> Figures:
+    """People tracking against the simulator's truth, without ROS; longer by hand: --duration, --seeds."""
+    program = PROGRAMS / "sarn_tests" / "tracking_bench"
+    config = ROOT / "src" / "sarn_perception" / "config"
+    return _named_values(
+        [str(program), str(ROOT / "launch/maps/office.yaml"), str(config), "--duration", "20"]
+    )
+
+
 BENCHES: Dict[str, Callable[[], Figures]] = {
     "world": world,
     "depth": depth,
@@ -207,6 +220,7 @@ BENCHES: Dict[str, Callable[[], Figures]] = {
     "planner": planner,
     "ompl": ompl,
     "learning": learning,
+    "tracking": tracking,
     "stack": stack,
 }
 

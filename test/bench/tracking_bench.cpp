@@ -31,7 +31,7 @@ namespace {
 
 using namespace sarn_tests;  // NOLINT(google-build-using-namespace): a main
 
-constexpr double kRange = 5.0;       // [m] people beyond need not be reported
+constexpr double kRange = 5.0;              // [m] people beyond need not be reported
 constexpr double kBodyPeriod = 1.0 / 30.0;  // [s] the node looks for bodies at 30 Hz
 
 struct Options {

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kMaxExistence = 0.99;
 constexpr double kLongestLook = 0.2;  // [s] evidence of one look, however long the last one is ago
+constexpr double kSeen = 0.2;         // [s] since the last detection, a person counts as seen
 constexpr double kOntoShare = 0.3;    // of a look that saw something else where a person should be
 constexpr double kNobody = 1e3;       // price in an assignment
 
@@ -40,8 +41,10 @@ void PeopleTracker::advance(double stamp) {
   now_ = stamp;
   for (PersonTrack& track : tracks_) {
     const double walking = std::min(1.0, track.filter.velocity().norm() / params_.walking_speed);
-    const double density =
-        params_.standing_density + walking * (params_.acceleration_density - params_.standing_density);
+    const double unseen =
+        params_.standing_density + walking * (params_.walking_density - params_.standing_density);
+    const bool seen = now_ - track.last_seen < kSeen;
+    const double density = seen ? params_.acceleration_density : unseen;
     track.filter.predict(dt, density);
     track.existence *= std::exp(-dt / params_.survival_time);
     if (blocked_ && blocked_(track.filter.position())) track.filter.halt();

@@ -32,8 +32,8 @@ std::vector<std::string> TrackerParams::conflicts() const {
     conflicts.emplace_back("forget_existence: must be less than birth_existence");
   }
   if (report_sigma > max_sigma) conflicts.emplace_back("report_sigma: must not exceed max_sigma");
-  if (standing_density > acceleration_density) {
-    conflicts.emplace_back("standing_density: must not exceed acceleration_density");
+  if (standing_density > walking_density) {
+    conflicts.emplace_back("standing_density: must not exceed walking_density");
   }
   return conflicts;
 }

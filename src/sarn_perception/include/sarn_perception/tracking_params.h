@@ -100,9 +100,11 @@ struct BodyParams {
 
 /// Who is there, and where they go (PeopleTracker).
 struct TrackerParams {
-  double acceleration_density = 0.60;  // [m^2/s^3] power of a walking person's white acceleration
-  double standing_density = 0.03;      // [m^2/s^3] of a standing person's
-  double walking_speed = 0.5;          // [m/s] from here on a person counts as walking, in the two above
+  double acceleration_density =
+      0.80;                        // [m^2/s^3] power of white acceleration, of who is seen: may start or turn
+  double walking_density = 0.15;   // [m^2/s^3] of who walked when last seen
+  double standing_density = 0.01;  // [m^2/s^3] of who stood when last seen
+  double walking_speed = 0.5;      // [m/s] from here on a person counts as walking, in the two above
   double initial_speed_sigma = 0.6;    // [m/s] on each axis, of a new track
   double pair_sigma = 0.10;            // [m] of a person's middle between two legs, on each axis
   double leg_sigma = 0.20;             // [m] of a person's middle when one leg is seen
@@ -131,6 +133,7 @@ struct TrackerParams {
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {
     v("acceleration_density", p.acceleration_density, {1e-6, 100.0});
+    v("walking_density", p.walking_density, {1e-6, 100.0});
     v("standing_density", p.standing_density, {1e-6, 100.0});
     v("walking_speed", p.walking_speed, {0.01, 5.0});
     v("initial_speed_sigma", p.initial_speed_sigma, {0.0, 10.0});

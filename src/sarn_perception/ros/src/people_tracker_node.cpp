@@ -33,6 +33,17 @@ PerceptionParams perceptionParams(const ros::NodeHandle& nh) {
   return params;
 }
 
+const char* text(tf2_ros::FilterFailureReason reason) {
+  switch (reason) {
+    case tf2_ros::filter_failure_reasons::OutTheBack:
+      return "older than all that tf remembers";
+    case tf2_ros::filter_failure_reasons::EmptyFrameID:
+      return "the frame has no name";
+    default:
+      return "tf did not come in time";
+  }
+}
+
 /// Whether something that happens at most at `rate` [Hz] is due; sets when it is next.
 bool due(const ros::Time& stamp, double rate, ros::Time& next) {
   if (stamp + ros::Duration(kRounding) < next) return false;
@@ -57,14 +68,15 @@ PeopleTrackerNode::PeopleTrackerNode(const ros::NodeHandle& nh, const ros::NodeH
       marker_publisher_(nh_.advertise<visualization_msgs::MarkerArray>(kTrackMarkersTopic, 10)),
       lockstep_(nh_, kTrackerLockstepTopic) {
   scans_.registerCallback(&PeopleTrackerNode::track, this);
-  scans_.registerFailureCallback([this](const sensor_msgs::LaserScanConstPtr& scan, auto reason) {
-    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, scan_subscriber_.getTopic()
-                                                 << ": no transform from its frame '" << scan->header.frame_id
-                                                 << "' to '" << params_.odom_frame << "' at "
-                                                 << scan->header.stamp << " (reason "
-                                                 << static_cast<int>(reason) << "); left out");
-    lockstep_.acknowledge(scan->header.stamp);
-  });
+  scans_.registerFailureCallback(
+      [this](const sensor_msgs::LaserScanConstPtr& scan, tf2_ros::FilterFailureReason reason) {
+        ROS_WARN_STREAM_THROTTLE(kWarningPeriod, scan_subscriber_.getTopic()
+                                                     << ": no transform from its frame '"
+                                                     << scan->header.frame_id << "' to '"
+                                                     << params_.odom_frame << "' at " << scan->header.stamp
+                                                     << ": " << text(reason) << "; left out");
+        lockstep_.acknowledge(scan->header.stamp);
+      });
   map_subscriber_ = nh_.subscribe(kMapTopic, 1, &PeopleTrackerNode::takeMap, this);
   scan_subscriber_ =
       nh_.subscribe(kScanTopic, 10, &PeopleTrackerNode::takeScan, this, ros::TransportHints().tcpNoDelay());
@@ -83,12 +95,14 @@ PeopleTrackerNode::PeopleTrackerNode(const ros::NodeHandle& nh, const ros::NodeH
 
 void PeopleTrackerNode::takeMap(const nav_msgs::OccupancyGridConstPtr& map) {
   const auto values = sarn::fromMessage(*map);
-  if (!values || map->header.frame_id != params_.map_frame) {
-    ROS_ERROR_STREAM_THROTTLE(kWarningPeriod,
-                              map_subscriber_.getTopic()
-                                  << ": its size, resolution or origin cannot be used, or its frame '"
-                                  << map->header.frame_id << "' is not '" << params_.map_frame
-                                  << "'; walls are told from people by the last good map, if there is one");
+  const bool right_frame = map->header.frame_id == params_.map_frame;
+  if (!values || !right_frame) {
+    const std::string problem =
+        right_frame ? "its size, resolution or origin cannot be used"
+                    : "its frame is '" + map->header.frame_id + "', not '" + params_.map_frame + "'";
+    ROS_ERROR_STREAM_THROTTLE(kWarningPeriod, map_subscriber_.getTopic()
+                                                  << ": " << problem
+                                                  << "; the last good map, if there is one, stays");
     return;
   }
   perception_.setMap(*values);
