@@ -67,6 +67,7 @@ void TrackingScore::add(const std::vector<TruePerson>& truth, const std::vector<
     if (turning) turning_.add(error);
     if (settled) settled_.add(error);
     if (settled && turning) settled_turning_.add(error);
+    if (settled && turning && truth[i].steady) steady_turning_.add(error);
   }
   for (std::size_t j = 0; j < reported.size(); ++j) {
     if (!right[j]) wrong_ += 1.0;

@@ -14,6 +14,7 @@ struct TruePerson {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // [m]
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [m/s]
   bool visible = false;                                // counts as one that must be reported
+  bool steady = true;                                  // has kept its velocity for a while
 };
 
 /// A reported person, in map.
@@ -46,6 +47,7 @@ class TrackingScore {
   [[nodiscard]] double velocityRmseTurning() const { return rms(turning_); }
   [[nodiscard]] double velocityRmseSettled() const { return rms(settled_); }  // seen for 0.5 s at least
   [[nodiscard]] double velocityRmseSettledTurning() const { return rms(settled_turning_); }
+  [[nodiscard]] double velocityRmseSteadyTurning() const { return rms(steady_turning_); }
   /// Longest time that a report which was never right went on [s].
   [[nodiscard]] double longestGhost() const;
   [[nodiscard]] int moments() const { return static_cast<int>(right_ + missed_); }
@@ -72,7 +74,7 @@ class TrackingScore {
 
   double match_distance_;
   double right_ = 0.0, wrong_ = 0.0, missed_ = 0.0, switches_ = 0.0, distance_ = 0.0;
-  Squares all_, turning_, settled_, settled_turning_;
+  Squares all_, turning_, settled_, settled_turning_, steady_turning_;
   std::map<int, std::uint64_t> report_of_;  // a true person: who it was reported as last
   std::map<std::uint64_t, Life> lives_;     // reports of this run
   double longest_ghost_ = 0.0;
