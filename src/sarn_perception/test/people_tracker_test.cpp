@@ -46,7 +46,14 @@ class PeopleTrackerTest : public ::testing::Test {
     }
   }
 
-  PeopleTracker tracker_{{}};
+  /// Reports people as long as it keeps them, so that tests see what becomes of them.
+  static TrackerParams talkative() {
+    TrackerParams params;
+    params.report_sigma = params.max_sigma;
+    return params;
+  }
+
+  PeopleTracker tracker_{talkative()};
   double time_ = 100.0;  // [s]
 };
 
@@ -76,7 +83,7 @@ TEST_F(PeopleTrackerTest, forgetsWhoIsSeenToBeGoneWithinASecond) {
 TEST_F(PeopleTrackerTest, outOfViewIsNoEvidenceOfAbsence) {
   walk({2.0, 0.0}, 0.0, 1.0);
   const double sure = tracker_.people().front().filter.positionSigma();
-  lookAway(2.0, ahead(8.0F), {0.0, 0.0, sarn::kPi});
+  lookAway(1.0, ahead(8.0F), {0.0, 0.0, sarn::kPi});
   ASSERT_EQ(tracker_.people().size(), 1U);
   EXPECT_GT(tracker_.people().front().filter.positionSigma(), 1.5 * sure) << "less certain meanwhile";
   lookAway(30.0, ahead(8.0F), {0.0, 0.0, sarn::kPi});
