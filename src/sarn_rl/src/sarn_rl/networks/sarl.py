@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import torch
 from torch import nn
 
@@ -60,7 +62,11 @@ class SarlNetwork(ValueNetwork):
     def _run(layers: nn.Sequential, shared: torch.Tensor, own: torch.Tensor) -> torch.Tensor:
         first = layers[0]
         assert isinstance(first, nn.Linear)
-        return layers[1:](split_linear(first, shared, own))
+        out = split_linear(first, shared, own)
+        # Not layers[1:](...): a slice builds a new module each time.
+        for layer in itertools.islice(layers, 1, None):
+            out = layer(out)
+        return out
 
 
 def _masked_mean(embedded: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
