@@ -21,7 +21,7 @@ from sarn_rl.reward import RewardParams
 
 WORLD = EnvironmentParams()
 REWARD = RewardParams(discomfort_scaled_by_time_step=True)
-RECORDINGS = Path("/work/shared/data/pedestrians")
+RECORDINGS = Path(__file__).resolve().parents[4] / "shared" / "data" / "pedestrians"
 
 
 def replay_of(seeds: List[int], steps: int) -> ReplayedWorlds:
