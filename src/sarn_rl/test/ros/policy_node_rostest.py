@@ -81,19 +81,14 @@ class PolicyNodeTest(unittest.TestCase):
         self.topics.tell(self.world.state, frames, self.topics.now + STEP, order)
         self.topics.tick_clock(STEP)
 
-    def first_decision(self, frames: Frames) -> PolicyDecision:
-        """Of a goal that has just been sent: the world waits until it has arrived."""
+    def decision(self, frames: Frames, order: Optional[List[int]] = None) -> PolicyDecision:
+        """On the present world, which stands as long as it takes until all of it has arrived."""
         deadline = time.monotonic() + PATIENCE
         decision = None
         while decision is None:
             self.assertLess(time.monotonic(), deadline, f"no decision: {self.topics.status}")
-            self.present(frames)
-            decision = self.decision_of_now(patience=0.5)
-        return decision
-
-    def next_decision(self) -> PolicyDecision:
-        decision = self.decision_of_now(PATIENCE)
-        self.assertIsNotNone(decision, f"no decision at {self.topics.now}: {self.topics.status}")
+            self.present(frames, order)
+            decision = self.decision_of_now(patience=2.0)
         return decision
 
     def decision_of_now(self, patience: float) -> Optional[PolicyDecision]:
@@ -138,7 +133,7 @@ class PolicyNodeTest(unittest.TestCase):
             with self.subTest(name):
                 self.begin(seed)
                 self.topics.send_goal(self.goal(), frames)
-                self.check(self.first_decision(frames))
+                self.check(self.decision(frames))
                 for step in range(16):
                     # Localisation moves odom in map while the robot stays where it is.
                     x, y, yaw = frames.map_from_odom
@@ -148,8 +143,7 @@ class PolicyNodeTest(unittest.TestCase):
                     outcome = self.world.step(self.policy.act(self.world.state)).outcomes[0]
                     if outcome in (Outcome.SUCCESS, Outcome.TIMEOUT):
                         break
-                    self.present(drifting)
-                    self.check(self.next_decision())
+                    self.check(self.decision(drifting))
                     compared += 1
             self.settle()
         self.assertGreater(compared, 40)
@@ -157,9 +151,7 @@ class PolicyNodeTest(unittest.TestCase):
     def test_the_order_of_people_changes_rows_and_nothing_else(self) -> None:
         frames, order = FRAMES["all turned"], [3, 0, 4, 1, 2]
         self.topics.send_goal(self.goal(), frames)
-        self.first_decision(frames)
-        self.present(frames, order)
-        decision = self.next_decision()
+        decision = self.decision(frames, order)
         self.assertEqual(decision.names, [f"person{number}" for number in order])
         self.check(decision, order)
 
@@ -167,7 +159,7 @@ class PolicyNodeTest(unittest.TestCase):
         frames = FRAMES["all turned"]
         self.present(frames)
         self.topics.send_goal(self.goal(), frames, frame="odom")
-        self.check(self.first_decision(frames))
+        self.check(self.decision(frames))
 
     def test_stops_on_old_or_broken_inputs_and_goes_on_after_them(self) -> None:
         frames = Frames()
@@ -204,7 +196,7 @@ class PolicyNodeTest(unittest.TestCase):
             "no transform": lambda t: (self.topics.tell_robot(state.robots[0], frames, t), people(t)),
         }
         self.topics.send_goal(self.goal(), frames)
-        self.first_decision(frames)
+        self.decision(frames)
         for name, tell in faults.items():
             with self.subTest(name):
                 for _ in range(12):  # 0.6 s
@@ -220,7 +212,7 @@ class PolicyNodeTest(unittest.TestCase):
                 self.assertIn("people" if "people" in name else "odometry", self.topics.status.reason)
                 while not self.topics.decisions.empty():
                     self.topics.decisions.get()
-                self.check(self.first_decision(frames))
+                self.check(self.decision(frames))
                 self.topics.until(
                     lambda: self.topics.status.state == NavigationStatus.DRIVING,
                     "does not go on",

@@ -27,7 +27,7 @@ from tf2_msgs.msg import TFMessage
 from sarn_rl.joint_state import JointState
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "policy"
-PATIENCE = 30.0  # [s] wall, for what must come
+PATIENCE = 100.0  # [s] wall, for what must come
 
 Planar = Tuple[float, float, float]  # x, y [m], yaw [rad]
 
