@@ -132,13 +132,20 @@ TEST_F(VelocityChain, theSmootherLimitsAccelerationAndEndsAtZero) {
   ASSERT_TRUE(
       await([&] { return !speeds.empty() && speeds.back() == 0.5; }, [&] { input.publish(twist(0.5)); }));
   ASSERT_TRUE(await([&] { return speeds.back() == 0.0; }));
+  const auto parameter = [this](const std::string& name) {
+    double value = 0.0;
+    EXPECT_TRUE(nh_.getParam("smoother_under_test/" + name, value)) << name;
+    return value;
+  };
+  const double up = parameter("accel_lim_v") / parameter("frequency");
+  const double down = parameter("decel_factor") * up;
   double last = 0.0;
   for (const double speed : speeds) {
-    EXPECT_LE(speed - last, 1.0 / 20.0 + 1e-9);
-    EXPECT_LE(last - speed, 1.5 / 20.0 + 1e-9);
+    EXPECT_LE(speed - last, up + 1e-9);
+    EXPECT_LE(last - speed, down + 1e-9);
     last = speed;
   }
-  EXPECT_GE(speeds.size(), 10U + 7U);
+  EXPECT_GE(static_cast<double>(speeds.size()), std::ceil(0.5 / up) + std::ceil(0.5 / down));
 }
 
 /// A robot in front of a wall: odometry and scans that follow from the commands that come out of the brake.
