@@ -43,19 +43,19 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions builderOptions(const Sla
   options.PF_options.resamplingMethod = mrpt::bayes::CParticleFilter::prSystematic;
   options.PF_options.adaptiveSampleSize = false;
   options.PF_options.sampleSize = static_cast<unsigned>(p.particles);
-  options.PF_options.BETA = p.resampleThreshold;
+  options.PF_options.BETA = p.resample_threshold;
   options.PF_options.powFactor = p.likelihood_exponent;
 
   Grid::TMapDefinition grid;
   grid.min_x = grid.min_y = -kStartHalfEdge;
   grid.max_x = grid.max_y = kStartHalfEdge;
   grid.resolution = static_cast<float>(p.delta);
-  grid.insertionOpts.maxDistanceInsertion = static_cast<float>(p.maxUrange);
+  grid.insertionOpts.maxDistanceInsertion = static_cast<float>(p.max_urange);
   grid.insertionOpts.considerInvalidRangesAsFreeSpace = false;
   grid.insertionOpts.wideningBeamsWithDistance = false;
   grid.likelihoodOpts.likelihoodMethod = Grid::lmLikelihoodField_Thrun;
   grid.likelihoodOpts.LF_stdHit = static_cast<float>(p.sigma);
-  grid.likelihoodOpts.LF_maxRange = static_cast<float>(p.maxUrange);
+  grid.likelihoodOpts.LF_maxRange = static_cast<float>(p.max_urange);
   grid.likelihoodOpts.LF_maxCorrsDistance = 0.3F;
   grid.likelihoodOpts.LF_decimation = 2;
   options.mapsInitializers.push_back(grid);
@@ -84,12 +84,12 @@ std::size_t fill(const PlanarScan& scan, const sarn::Pose2D& base_from_sensor, c
   const auto stride = static_cast<std::size_t>(p.lskip) + 1;
   const std::size_t count = scan.ranges.empty() ? 0 : (scan.ranges.size() - 1) / stride + 1;
   if (count < 2 || !std::isfinite(scan.angle_min) || !std::isfinite(scan.angle_increment)) return 0;
-  const double low = std::max(scan.range_min, p.minRange);
-  const double high = std::min(scan.range_max, p.maxUrange);
+  const double low = std::max(scan.range_min, p.min_range);
+  const double high = std::min(scan.range_max, p.max_urange);
   const double span = scan.angle_increment * static_cast<double>((count - 1) * stride);
   out.aperture = static_cast<float>(std::abs(span));
   out.rightToLeft = span > 0.0;
-  out.maxRange = static_cast<float>(p.maxUrange);
+  out.maxRange = static_cast<float>(p.max_urange);
   out.sensorPose = mrpt::poses::CPose3D(base_from_sensor.x, base_from_sensor.y, 0.0,
                                         base_from_sensor.theta + scan.angle_min + 0.5 * span);
   out.resizeScan(count);
@@ -117,7 +117,7 @@ struct GridSlam::Impl {
                const PlanarScan& scan) {
     const sarn::Pose2D motion = sarn::inverse(odom_at_update.value_or(robot_in_odom)) * robot_in_odom;
     const bool moved =
-        motion.position().norm() >= params.linearUpdate || std::abs(motion.theta) >= params.angularUpdate;
+        motion.position().norm() >= params.linear_update || std::abs(motion.theta) >= params.angular_update;
     if (odom_at_update && !moved) return false;
     auto observation = mrpt::obs::CObservation2DRangeScan::Create();
     if (fill(scan, base_from_sensor, params, *observation) < kFewest) return false;

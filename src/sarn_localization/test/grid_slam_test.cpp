@@ -28,8 +28,8 @@ SlamParams params() {
   SlamParams p;
   p.particles = 10;
   p.lskip = 0;
-  p.minRange = 0.1;
-  p.maxUrange = 8.0;
+  p.min_range = 0.1;
+  p.max_urange = 8.0;
   p.laser_range_bias = 0.0;
   return p;
 }

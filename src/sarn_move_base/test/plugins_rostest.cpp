@@ -489,9 +489,9 @@ TEST_F(Following, robotDrivesThePlanInItsTimeToTheGoal) {
   ASSERT_TRUE(follower->setPlan(plan));
   const double planned_end = (plan.end() - 2)->header.stamp.toSec();
   ASSERT_TRUE(drive_.toGoal(*follower, 60.0, nothing));
-  EXPECT_NEAR(drive_.robot().x, 8.0, 0.15);
-  EXPECT_NEAR(drive_.robot().y, 4.0, 0.15);
-  EXPECT_NEAR(drive_.robot().theta, 1.5, 0.2);
+  EXPECT_NEAR(drive_.robot().x, 8.0, 0.18);
+  EXPECT_NEAR(drive_.robot().y, 4.0, 0.18);
+  EXPECT_NEAR(drive_.robot().theta, 1.5, 0.25);
   EXPECT_NEAR(now(), planned_end, 1.0);
 }
 

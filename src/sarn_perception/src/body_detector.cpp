@@ -110,7 +110,7 @@ void BodyDetector::drop(const DepthImageView& image, const View& view, RangeProf
       const double turn = (static_cast<double>(std::atan2(point.y(), point.x())) - profile.angle_min) /
                           profile.angle_increment;
       if (turn > -0.5 && turn < static_cast<double>(profile.ranges.size()) - 0.5) {
-        float& nearest = profile.ranges[static_cast<std::size_t>(turn + 0.5)];
+        float& nearest = profile.ranges[static_cast<std::size_t>(std::lround(turn))];
         nearest = std::isnan(nearest) ? range : std::min(nearest, range);
       }
       if (point.z() > max_height || range > max_range) continue;

@@ -74,7 +74,7 @@ class DistanceField {
 
  private:
   struct Entry {
-    float label;
+    float label = 0.0F;
     sarn::CellIndex cell;
   };
   struct Move {

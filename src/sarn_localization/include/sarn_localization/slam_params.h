@@ -19,10 +19,10 @@ struct SlamParams {
 
   // Particles
   int particles = 30;
-  double resampleThreshold = 0.5;  // [1] effective share of the particles below which they are resampled
-  double linearUpdate = 0.2;       // [m] of motion before a scan is used
-  double angularUpdate = 0.15;     // [rad]
-  int random_seed = 1;             // of everything random
+  double resample_threshold = 0.5;  // [1] effective share of the particles below which they are resampled
+  double linear_update = 0.2;       // [m] of motion before a scan is used
+  double angular_update = 0.15;     // [rad]
+  int random_seed = 1;              // of everything random
 
   // Motion: standard deviations per motion
   double srr = 0.01;   // [m/m] of translation, from translation
@@ -31,8 +31,8 @@ struct SlamParams {
   double stt = 0.01;   // [rad/rad] of rotation, from rotation
 
   // Scan and map
-  double maxUrange = 6.0;            // [m] farther returns are not used
-  double minRange = 0.45;            // [m]
+  double max_urange = 6.0;           // [m] farther returns are not used
+  double min_range = 0.45;           // [m]
   double laser_range_bias = 0.0023;  // [1/m] a range r is measured this times r^2 too short (Xtion, ten rows)
   int lskip = 3;                     // beams left out between two that are used
   double sigma = 0.1;                // [m] of a return around its wall
@@ -48,16 +48,16 @@ struct SlamParams {
     v("tf_delay", p.tf_delay, {0.0, 5.0});
     v("map_update_interval", p.map_update_interval, {0.1, 60.0});
     v("particles", p.particles, {1.0, 1000.0});
-    v("resampleThreshold", p.resampleThreshold, {0.0, 1.0});
-    v("linearUpdate", p.linearUpdate, {0.0, 5.0});
-    v("angularUpdate", p.angularUpdate, {0.0, 6.3});
+    v("resampleThreshold", p.resample_threshold, {0.0, 1.0});
+    v("linearUpdate", p.linear_update, {0.0, 5.0});
+    v("angularUpdate", p.angular_update, {0.0, 6.3});
     v("random_seed", p.random_seed, {0.0, 2147483647.0});
     v("srr", p.srr, {0.0, 1.0});
     v("srt", p.srt, {0.0, 1.0});
     v("str", p.str, {0.0, 1.0});
     v("stt", p.stt, {0.0, 1.0});
-    v("maxUrange", p.maxUrange, {0.1, 200.0});
-    v("minRange", p.minRange, {0.0, 100.0});
+    v("maxUrange", p.max_urange, {0.1, 200.0});
+    v("minRange", p.min_range, {0.0, 100.0});
     v("laser_range_bias", p.laser_range_bias, {-0.1, 0.1});
     v("lskip", p.lskip, {0.0, 1000.0});
     v("sigma", p.sigma, {0.005, 1.0});
@@ -71,7 +71,7 @@ struct SlamParams {
         odom_frame == base_frame || map_frame == base_frame) {
       problems.emplace_back("map_frame, odom_frame, base_frame: must be three different names");
     }
-    if (minRange >= maxUrange) problems.emplace_back("minRange: must be less than maxUrange");
+    if (min_range >= max_urange) problems.emplace_back("minRange: must be less than maxUrange");
     return problems;
   }
 };

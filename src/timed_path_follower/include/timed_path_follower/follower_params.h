@@ -31,10 +31,11 @@ struct FollowerParams {
   double slow_down_error = 0.15;  // [m] lateral; more reduces the feed-forward, to none at max_position_error
 
   // Goal.
-  double xy_goal_tolerance = 0.18;  // [m] a little above the planner's, whose plans may end at the edge of theirs
+  double xy_goal_tolerance =
+      0.18;  // [m] a little above the planner's, whose plans may end at the edge of theirs
   double yaw_goal_tolerance = 0.25;  // [rad]
-  double stopped_vel_x = 0.05;      // [m/s] slower counts as standing
-  double stopped_vel_theta = 0.1;   // [rad/s]
+  double stopped_vel_x = 0.05;       // [m/s] slower counts as standing
+  double stopped_vel_theta = 0.1;    // [rad/s]
   double goal_patience = 2.0;  // [s] after the trajectory's end to settle at its last pose before kExpired
 
   // Obstacle hook.

@@ -210,7 +210,7 @@ class _Walkers:
         size = (cases, params.walkers)
         spread = 0.5 * np.abs(random.normal(size=(*size, 1)))
         self._places = -self._goal + spread * random.normal(size=(*size, 2))
-        self._heading = np.full(size, round(0.25 * self._headings) % self._headings)
+        self._heading: np.ndarray = np.full(size, round(0.25 * self._headings) % self._headings)
 
     def around(self, random: np.random.Generator) -> Tuple[np.ndarray, np.ndarray]:
         """Places (C, M, 2) [m] and headings (C, M) [rad] to learn from: anywhere, and near the walkers."""
@@ -238,9 +238,9 @@ class _Walkers:
         layers = values.reshape(-1, *values.shape[2:])
         layer = np.arange(cases)[:, None, None] * self._headings + after
         worth = self._grid.interpolate(layers, layer.reshape(-1), places.reshape(-1, 2)).reshape(layer.shape)
-        chosen = worth.argmax(axis=-1)
-        at_random = random.random(chosen.shape) < WALK_RANDOM
-        chosen = np.where(at_random, random.integers(actions, size=chosen.shape), chosen)[..., None]
+        best = worth.argmax(axis=-1)
+        at_random = random.random(best.shape) < WALK_RANDOM
+        chosen = np.where(at_random, random.integers(actions, size=best.shape), best)[..., None]
         self._places = np.take_along_axis(places, chosen[..., None], axis=2)[:, :, 0]
         self._heading = np.take_along_axis(after, chosen, axis=2)[:, :, 0]
         there = np.hypot(*np.moveaxis(self._places - self._goal, -1, 0)) < self._radius
