@@ -43,10 +43,10 @@ def result_files(build: Path) -> List[Path]:
 
 def failed_programs(build: Path) -> List[str]:
     """Names of the ctest tests that failed."""
-    file = build / "ctest.xml"
-    if not file.is_file():
+    files = sorted(build.glob("ctest*.xml"))
+    if not files:
         return ["ctest"]
-    cases = ElementTree.parse(file).getroot().iter("testcase")
+    cases = [case for file in files for case in ElementTree.parse(file).getroot().iter("testcase")]
     return [case.get("name", "?") for case in cases if case.get("status") == "fail"]
 
 

@@ -16,6 +16,9 @@ from nav_msgs.msg import Odometry
 from people_msgs.msg import People
 from run_record import RunRecord
 from sarn_msgs.msg import Contact
+from std_srvs.srv import Empty
+
+from sarn_evaluation.ros.world_control import begin_world_anew, let_world_run
 
 CLOSING_SPEED = 0.05  # [m/s] the robot causes a contact when it closes in faster than this
 
@@ -62,15 +65,25 @@ class RunRecorder:
         """Visits the goals in order; ends at the first that is not reached."""
         self._client.wait_for_server()
         rospy.wait_for_message("/navigation_status", rospy.AnyMsg)
+        # Whoever starts while nodes still come up has walked some way already, another one on each machine.
+        begin_world_anew(rospy.get_param("/kobuki_sim/seed"))
+        rospy.ServiceProxy("move_base/clear_costmaps", Empty)()
+        with self._lock:
+            self._robot.clear()
+            self._people.clear()
+            self._contacts.clear()
         succeeded, outcome = True, ""
-        for x, y, yaw in self._goals:
+        for index, (x, y, yaw) in enumerate(self._goals):
             goal = MoveBaseGoal()
             goal.target_pose.header.frame_id = "map"
             goal.target_pose.pose.position.x = x
             goal.target_pose.pose.position.y = y
             goal.target_pose.pose.orientation.z = math.sin(0.5 * yaw)
             goal.target_pose.pose.orientation.w = math.cos(0.5 * yaw)
-            self._client.send_goal_and_wait(goal)
+            self._client.send_goal(goal)
+            if index == 0:
+                let_world_run()
+            self._client.wait_for_result()
             outcome = self._client.get_goal_status_text()
             if self._client.get_state() != GoalStatus.SUCCEEDED:
                 succeeded = False

@@ -10,7 +10,7 @@ import sys
 import threading
 import time
 from pathlib import Path
-from typing import Any, Callable, Optional, Tuple
+from typing import Callable, Optional, Tuple
 
 import actionlib
 import rospy
@@ -18,13 +18,12 @@ import tf2_ros
 from actionlib_msgs.msg import GoalStatus
 from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 from sarn_msgs.msg import EpisodeResult, NavigationStatus
-from sarn_msgs.srv import Reset, Step
-from std_srvs.srv import SetBool
 
 from sarn_evaluation.occupancy import MapError, load_map
 from sarn_evaluation.progress import Progress, ProgressLine, RateMeter
 from sarn_evaluation.ros import topics
 from sarn_evaluation.ros.live_measurements import LiveMeasurements
+from sarn_evaluation.ros.world_control import WorldError, begin_world_anew, let_world_run
 from sarn_evaluation.scenario import Pose, ScenarioError, load_scenario
 
 STATES = {getattr(NavigationStatus, name): name.lower() for name in (
@@ -32,9 +31,6 @@ STATES = {getattr(NavigationStatus, name): name.lower() for name in (
 OUTCOMES = {
     getattr(EpisodeResult, name): name.lower() for name in ("SUCCESS", "CONTACT", "TIMEOUT", "ABORTED")
 }
-SERVICE_PATIENCE = 10.0  # [s] wall
-DELIVERY_TIME = 0.3  # [s] wall that a goal may take to its node while the world stands
-FIRST_STEPS = 20  # of the world, 0.01 s each: longer than the slowest topic's period
 SETTLING_TIME = 1.0  # [s] simulated and wall, from the first transform to the first goal
 
 
@@ -50,17 +46,6 @@ def _goal(pose: Pose) -> MoveBaseGoal:
     goal.target_pose.pose.orientation.z = math.sin(pose[2] / 2.0)
     goal.target_pose.pose.orientation.w = math.cos(pose[2] / 2.0)
     return goal
-
-
-def _call(name: str, kind: Any, *arguments: Any) -> None:
-    """A service of the simulation. Raises RunError."""
-    try:
-        rospy.wait_for_service(name, timeout=SERVICE_PATIENCE)
-        response = rospy.ServiceProxy(name, kind)(*arguments)
-    except (rospy.ROSException, rospy.ServiceException) as error:
-        raise RunError(f"{name}: {error}") from None
-    if not response.success:
-        raise RunError(f"{name}: {response.message}")
 
 
 class ScenarioRunner:
@@ -94,7 +79,7 @@ class ScenarioRunner:
         try:
             self._wait_until_everything_is_up()
             if self._restart:
-                self._begin_world_anew()
+                begin_world_anew(self._seed)
             self._start, self._wall_start = rospy.get_time(), time.monotonic()
             self._measurements.start()
             outcome, reason = EpisodeResult.SUCCESS, ""
@@ -103,7 +88,7 @@ class ScenarioRunner:
                 if outcome != EpisodeResult.SUCCESS:
                     break
                 reached += 1
-        except RunError as error:
+        except (RunError, WorldError) as error:
             outcome, reason = EpisodeResult.ABORTED, str(error)
         self._line.end()
         if rospy.is_shutdown():
@@ -131,19 +116,6 @@ class ScenarioRunner:
             "/clock stands still",
         )
 
-    def _begin_world_anew(self) -> None:
-        """Everybody back to the start, and time stands still until the goal is on its way.
-
-        A moment passes first, so that every topic tells of the new episode.
-        """
-        _call(topics.PAUSE, SetBool, True)
-        _call(topics.RESET, Reset, self._seed, False)
-        _call(topics.STEP, Step, FIRST_STEPS)
-
-    def _let_world_run(self) -> None:
-        time.sleep(DELIVERY_TIME)
-        _call(topics.PAUSE, SetBool, False)
-
     def _await(self, condition: Callable[[], bool], complaint: str) -> None:
         deadline = time.monotonic() + self._patience
         while not condition():
@@ -159,7 +131,7 @@ class ScenarioRunner:
         done = threading.Event()  # the client has let go of the goal, and may be given the next
         self._client.send_goal(_goal(pose), done_cb=lambda _state, _result: done.set())
         if self._restart and index == 0:
-            self._let_world_run()
+            let_world_run()
         clock, moved = rospy.get_time(), time.monotonic()
         while not rospy.is_shutdown():
             time.sleep(0.05)
