@@ -64,11 +64,12 @@ def filled_memory(params: LearningParams) -> ReplayMemory:
 def episodes_per_second(checkpoint: Checkpoint) -> float:
     """Of the collection alone, with a policy that knows the way."""
     params = from_dict(TrainingParams, checkpoint.origin["configuration"], str(SHIPPED))
-    collector = Collector(params, checkpoint.policy(), checkpoint.contract.make_lookahead(), 0)
+    collector = Collector(params, checkpoint.contract.make_lookahead(), 0)
+    policy = checkpoint.policy()
     random = np.random.default_rng(0)
     finished, begin = 0, time.perf_counter()
     for _ in range(COLLECTED_STEPS):
-        finished += len(collector.step(0.1, random))
+        finished += len(collector.step(policy, 0.1, random))
     return finished / (time.perf_counter() - begin)
 
 

@@ -13,6 +13,7 @@ import torch
 from sarn_rl.joint_state import JointState
 from sarn_rl.networks.base import ValueNetwork
 from sarn_rl.networks.factory import make_network
+from sarn_rl.networks.packed import can_pack, packed
 from sarn_rl.networks.params import NetworkParams
 from sarn_rl.observation import Observation, encode
 from sarn_rl.policies.value_policy import network_values
@@ -164,3 +165,25 @@ def test_unknown_or_contradictory_parameters_are_named() -> None:
     assert "map_cells" in NetworkParams("cadrl", map_cells=4).problems()[0]
     with pytest.raises(ValueError, match="gcn"):
         make_network(NetworkParams("gcn"), 6, 0.9)
+
+
+@pytest.mark.skipif(not can_pack(), reason="this torch has no oneDNN")
+@pytest.mark.parametrize("params", ALL, ids=str)
+@pytest.mark.parametrize("count", [0, 1, 5])
+def test_packed_network_has_the_same_values_and_keeps_its_weights(params: NetworkParams, count: int) -> None:
+    net = network(params)
+    random = np.random.default_rng(5)
+    robot = random.uniform(-3.0, 3.0, (40, 6)).astype(np.float32)
+    people = random.uniform(-3.0, 3.0, (40, count, 7)).astype(np.float32)
+    everybody = np.ones((40, count), dtype=bool)
+    some = random.random((40, count)) < 0.6
+    quick = packed(net)
+    for present in (everybody, some):
+        observation = Observation(robot, people, present)
+        expected = network_values(net, observation)
+        np.testing.assert_allclose(network_values(quick, observation), expected, atol=1e-5)
+    before = network_values(quick, Observation(robot, people, everybody))
+    with torch.no_grad():
+        for value in net.parameters():
+            value.add_(0.1)
+    np.testing.assert_array_equal(network_values(quick, Observation(robot, people, everybody)), before)

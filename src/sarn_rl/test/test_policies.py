@@ -134,3 +134,11 @@ def test_baselines_do_not_see_absent_people(baseline: OrcaPolicy, crowd: JointSt
     for world in range(4):
         people = crowd.people[world][crowd.present[world]]
         assert together[world] == pytest.approx(baseline.act(single_state(crowd.robots[world], people))[0])
+
+
+@pytest.mark.parametrize("part", ["robots", "people"])
+def test_state_that_is_not_finite_is_refused(crowd: JointState, part: str) -> None:
+    """A ReLU may take NaN for 0, so that it would not be seen in the values."""
+    getattr(crowd, part)[0, 0] = np.nan
+    with pytest.raises(ValueError, match="state: not finite"):
+        policy().act(crowd)

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from typing import Sequence
+import itertools
+from typing import Optional, Sequence
 
 import torch
 from torch import nn
@@ -26,19 +27,40 @@ class ValueNetwork(nn.Module):
         raise NotImplementedError
 
 
-def mlp(sizes: Sequence[int], last_relu: bool = False) -> nn.Sequential:
+class Mlp(nn.Sequential):
     """Linear layers with ReLU between them, and after the last if asked."""
-    layers: list = []
-    for inputs, outputs in zip(sizes[:-1], sizes[1:]):
-        layers += [nn.Linear(inputs, outputs), nn.ReLU()]
-    return nn.Sequential(*(layers if last_relu else layers[:-1]))
 
+    def __init__(self, sizes: Sequence[int], last_relu: bool = False) -> None:
+        layers: list = []
+        for inputs, outputs in zip(sizes[:-1], sizes[1:]):
+            layers += [nn.Linear(inputs, outputs), nn.ReLU(inplace=True)]
+        super().__init__(*(layers if last_relu else layers[:-1]))
 
-def split_linear(layer: nn.Linear, shared: torch.Tensor, own: torch.Tensor) -> torch.Tensor:
-    """layer([shared, own]) with own (B, P, n), and shared (B, m) that is the same for all P."""
-    size = shared.shape[-1]
-    common = nn.functional.linear(shared, layer.weight[:, :size], layer.bias)
-    return nn.functional.linear(own, layer.weight[:, size:]) + common.unsqueeze(-2)
+    def split(self, shared: torch.Tensor, own: torch.Tensor) -> torch.Tensor:
+        """Of [shared, own] with own (B, P, n), and shared (B, m) that is the same for all P."""
+        first = self[0]
+        assert isinstance(first, nn.Linear)
+        size = shared.shape[-1]
+        common = nn.functional.linear(shared, first.weight[:, :size], first.bias)
+        out = nn.functional.linear(own, first.weight[:, size:]) + common.unsqueeze(-2)
+        # Not self[1:](...): a slice builds a new module each time.
+        for layer in itertools.islice(self, 1, None):
+            out = layer(out)
+        return out
+
+    def hidden(self, x: torch.Tensor) -> torch.Tensor:
+        """What the last layer is given."""
+        for layer in itertools.islice(self, len(self) - 1):
+            x = layer(x)
+        return x
+
+    def last(self, x: torch.Tensor, bias_weight: Optional[torch.Tensor] = None) -> torch.Tensor:
+        """The last layer, its bias weighted (B, 1) if asked."""
+        layer = self[-1]
+        assert isinstance(layer, nn.Linear)
+        if bias_weight is None:
+            return layer(x)
+        return nn.functional.linear(x, layer.weight) + bias_weight * layer.bias
 
 
 def pairwise(robot: torch.Tensor, people: torch.Tensor) -> torch.Tensor:

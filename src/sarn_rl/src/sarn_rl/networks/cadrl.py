@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import torch
 
-from sarn_rl.networks.base import PERSON_SIZE, ValueNetwork, mlp, pairwise
+from sarn_rl.networks.base import PERSON_SIZE, Mlp, ValueNetwork
 from sarn_rl.networks.sarl import VALUE
 
 
@@ -19,13 +19,13 @@ class CadrlNetwork(ValueNetwork):
         super().__init__()
         self.robot_size = robot_size
         self._gamma = gamma
-        self.value = mlp((robot_size + PERSON_SIZE, *VALUE, 1))
+        self.value = Mlp((robot_size + PERSON_SIZE, *VALUE, 1))
 
     def forward(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
         free = torch.pow(self._gamma, (robot[:, 0] - robot[:, 4]).clamp(min=0.0))
         if people.shape[1] == 0:
             return free
-        values = self.value(pairwise(robot, people)).squeeze(-1)
+        values = self.value.split(robot, people).squeeze(-1)
         if bool(present.all()):
             return values.min(dim=-1).values
         worst = values.masked_fill(~present, torch.finfo(values.dtype).max).min(dim=-1).values

@@ -6,7 +6,7 @@ from __future__ import annotations
 import torch
 from torch import nn
 
-from sarn_rl.networks.base import PERSON_SIZE, ValueNetwork, mlp, pairwise
+from sarn_rl.networks.base import PERSON_SIZE, Mlp, ValueNetwork, pairwise
 from sarn_rl.networks.sarl import VALUE
 
 HIDDEN = 50
@@ -23,7 +23,7 @@ class LstmNetwork(ValueNetwork):
         super().__init__()
         self.robot_size = robot_size
         self.lstm = nn.LSTM(robot_size + PERSON_SIZE, HIDDEN, batch_first=True)
-        self.value = mlp((robot_size + HIDDEN, *VALUE, 1))
+        self.value = Mlp((robot_size + HIDDEN, *VALUE, 1))
 
     def forward(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
         return self.value(torch.cat([robot, self._crowd(robot, people, present)], dim=-1)).squeeze(-1)

@@ -3,12 +3,9 @@
 
 from __future__ import annotations
 
-import itertools
-
 import torch
-from torch import nn
 
-from sarn_rl.networks.base import PERSON_SIZE, ValueNetwork, mlp, split_linear
+from sarn_rl.networks.base import PERSON_SIZE, Mlp, ValueNetwork
 from sarn_rl.networks.neighbourhood import MAP_CHANNELS, neighbourhood_maps
 
 EMBEDDING = (150, 100)  # hidden units of Phi_e
@@ -29,10 +26,10 @@ class SarlNetwork(ValueNetwork):
         self.robot_size = robot_size
         self._map_cells, self._map_cell_size = map_cells, map_cell_size
         person_size = PERSON_SIZE + MAP_CHANNELS * map_cells * map_cells
-        self.embedding = mlp((robot_size + person_size, *EMBEDDING), last_relu=True)
-        self.interaction = mlp((EMBEDDING[-1], *INTERACTION))
-        self.attention = mlp((2 * EMBEDDING[-1], *ATTENTION, 1))
-        self.value = mlp((robot_size + INTERACTION[-1], *VALUE, 1))
+        self.embedding = Mlp((robot_size + person_size, *EMBEDDING), last_relu=True)
+        self.interaction = Mlp((EMBEDDING[-1], *INTERACTION))
+        self.attention = Mlp((2 * EMBEDDING[-1], *ATTENTION, 1))
+        self.value = Mlp((robot_size + INTERACTION[-1], *VALUE, 1))
 
     def forward(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
         return self.value(torch.cat([robot, self.crowd(robot, people, present)[0]], dim=-1)).squeeze(-1)
@@ -45,28 +42,20 @@ class SarlNetwork(ValueNetwork):
             maps = neighbourhood_maps(people, present, self._map_cells, self._map_cell_size)
             people = torch.cat([people, maps], dim=-1)
         everybody = bool(present.all())
-        embedded = self._run(self.embedding, robot, people)
+        embedded = self.embedding.split(robot, people)
         mean = embedded.mean(dim=1) if everybody else _masked_mean(embedded, present)
-        hidden = self.interaction(embedded)
         # The mean comes first in the input of Psi_alpha.
-        scores = self._run(self.attention, mean, embedded).squeeze(-1)
+        scores = self.attention.split(mean, embedded).squeeze(-1)
         if not everybody:
             # A row without anybody gets equal weights of a zero crowd below, and no NaN.
             scores = scores.masked_fill(~present, torch.finfo(scores.dtype).min)
         weights = torch.softmax(scores, dim=-1)
         if not everybody:
             weights = weights * present
-        return torch.bmm(weights.unsqueeze(1), hidden).squeeze(1), weights
-
-    @staticmethod
-    def _run(layers: nn.Sequential, shared: torch.Tensor, own: torch.Tensor) -> torch.Tensor:
-        first = layers[0]
-        assert isinstance(first, nn.Linear)
-        out = split_linear(first, shared, own)
-        # Not layers[1:](...): a slice builds a new module each time.
-        for layer in itertools.islice(layers, 1, None):
-            out = layer(out)
-        return out
+        # The last layer of Psi_h is linear: the same after the sum over people, once instead of P times.
+        pooled = torch.bmm(weights.unsqueeze(1), self.interaction.hidden(embedded)).squeeze(1)
+        total = None if everybody else weights.sum(dim=-1, keepdim=True)
+        return self.interaction.last(pooled, total), weights
 
 
 def _masked_mean(embedded: torch.Tensor, present: torch.Tensor) -> torch.Tensor:

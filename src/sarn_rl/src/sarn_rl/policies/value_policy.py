@@ -15,7 +15,7 @@ from sarn_rl.observation import Observation
 from sarn_rl.policies.base import Policy
 
 # Worlds whose look-ahead goes through the network together: larger batches fall out of the cache.
-CHUNK = 16
+CHUNK = 8
 
 
 class ValuePolicy(Policy):
@@ -33,7 +33,9 @@ class ValuePolicy(Policy):
     def action_values(
         self, state: JointState, people_after: Optional[np.ndarray] = None
     ) -> Tuple[np.ndarray, np.ndarray]:
-        """(actions (N, A, 2), their values (N, A))."""
+        """(actions (N, A, 2), their values (N, A)). ValueError when the state is not finite."""
+        if not (np.isfinite(state.robots).all() and np.isfinite(state.people).all()):
+            raise ValueError("state: not finite")
         parts = []
         for begin in range(0, len(state), CHUNK):
             part = slice(begin, begin + CHUNK)

@@ -38,24 +38,22 @@ class Finished:
 class Collector:
     """Steps N worlds with an epsilon-greedy policy; a world whose episode ends begins the next case."""
 
-    def __init__(
-        self, params: TrainingParams, policy: ValuePolicy, lookahead: Lookahead, first_case: int
-    ) -> None:
-        self._params, self._policy, self._lookahead = params, policy, lookahead
+    def __init__(self, params: TrainingParams, lookahead: Lookahead, first_case: int) -> None:
+        self._params, self._lookahead = params, lookahead
         self._discount = step_discount(params)
         count = params.learning.worlds
         self._crowds = params.learning.people or (params.environment.cases.people,)
         self._worlds = Worlds(
-            params.environment, params.reward, policy.kinematics, count, most_people=max(self._crowds)
+            params.environment, params.reward, lookahead.kinematics, count, most_people=max(self._crowds)
         )
         self._histories: List[_History] = [_History() for _ in range(count)]
         self.next_case = first_case
         self._begin(list(range(count)))
 
-    def step(self, epsilon: float, random: np.random.Generator) -> List[Finished]:
+    def step(self, policy: ValuePolicy, epsilon: float, random: np.random.Generator) -> List[Finished]:
         """One step of all worlds; the episodes that ended with it."""
         state = self._worlds.state
-        actions, values = self._policy.action_values(state)
+        actions, values = policy.action_values(state)
         chosen = values.argmax(axis=1)
         randomly = random.random(len(chosen)) < epsilon
         chosen = np.where(randomly, random.integers(values.shape[1], size=len(chosen)), chosen)

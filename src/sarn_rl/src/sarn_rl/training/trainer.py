@@ -20,6 +20,7 @@ from sarn_rl.envs.cases import SPLIT_SIZES
 from sarn_rl.envs.worlds import Outcome
 from sarn_rl.evaluation.episodes import run_cases
 from sarn_rl.networks.factory import make_network
+from sarn_rl.networks.packed import packed
 from sarn_rl.policies.value_policy import ValuePolicy
 from sarn_rl.training.collector import Collector, Finished
 from sarn_rl.training.commit import source_commit
@@ -68,7 +69,6 @@ class Trainer:
         self._random = np.random.default_rng(params.seed)
         self._network = make_network(params.network, len(self._contract.robot_features), params.gamma)
         self._learner = Learner(self._network, params.learning)
-        self._policy = ValuePolicy(self._learner.target, self._lookahead)
         self._episodes = 0
         self._next_case = params.teacher.cases or params.imitation.episodes
         self._best = (-1.0, -np.inf)
@@ -136,11 +136,13 @@ class Trainer:
 
     def _learn(self, memory: ReplayMemory) -> None:
         learning = self._params.learning
-        collector = Collector(self._params, self._policy, self._lookahead, self._next_case)
+        collector = Collector(self._params, self._lookahead, self._next_case)
         warm = self._episodes + learning.warmup_episodes if not self._learner.updates else 0
         while self._episodes < learning.episodes:
             before = self._episodes
-            finished = self._timed("collection", lambda: collector.step(self._epsilon(), self._random))
+            finished = self._timed(
+                "collection", lambda: collector.step(self._acting(), self._epsilon(), self._random)
+            )
             for episode in finished:
                 memory.add(episode.transitions)
                 self._count(episode)
@@ -167,6 +169,10 @@ class Trainer:
             self._validate()
         if _passed(before, self._episodes, learning.checkpoint_episodes):
             self._save(memory)
+
+    def _acting(self) -> ValuePolicy:
+        """Decides with the weights as they are now."""
+        return ValuePolicy(packed(self._learner.target), self._lookahead)
 
     def _epsilon(self) -> float:
         learning = self._params.learning
@@ -222,7 +228,7 @@ class Trainer:
         params = self._params
         numbers = range(SPLIT_SIZES["validation"])
         episodes = run_cases(
-            self._policy, params.environment, params.reward, "validation", numbers, params.gamma
+            self._acting(), params.environment, params.reward, "validation", numbers, params.gamma
         )
         return episodes.summary()
 
