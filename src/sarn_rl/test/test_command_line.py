@@ -67,26 +67,36 @@ def test_evaluate_says_whether_the_policy_peeked(checkpoint: Path, capsys: pytes
         assert json.loads(capsys.readouterr().out)["lookahead"] == name
 
 
-def test_table_has_the_papers_figures(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+def test_table_has_the_papers_figures_and_means_over_seeds(
+    tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
     torch.manual_seed(4)
     contract = Contract(network=NetworkParams("cadrl"))
-    origin = {"seed": 2, "configuration": {"environment": to_dict(EnvironmentParams())}}
-    save_checkpoint(
-        tmp_path / "cadrl.pt", Checkpoint(make_network(contract.network, 5, 0.9), contract, origin)
-    )
-    out = tmp_path / "build" / "table.json"
-    assert main(["table", "--models", str(tmp_path), "--count", "2", "--out", str(out)]) == 0
+    for seed in (1, 2):
+        origin = {"seed": seed, "configuration": {"environment": to_dict(EnvironmentParams())}}
+        checkpoint = Checkpoint(make_network(contract.network, 5, 0.9), contract, origin)
+        save_checkpoint(tmp_path / f"cadrl_seed{seed}.pt", checkpoint)
+    out, markdown = tmp_path / "build" / "table.json", tmp_path / "table.md"
+    arguments = ["table", "--models", str(tmp_path), "--count", "2", "--out", str(out)]
+    assert main([*arguments, "--markdown", str(markdown)]) == 0
     rows = json.loads(out.read_text())
     assert {"orca", "social_force", "cadrl"} == {row["policy"] for row in rows}
     ours = [row for row in rows if row["policy"] == "cadrl"]
-    assert [row["humans"] for row in ours if row["people_model"] == "orca"] == [5, 10, 20]
-    assert sum(row["people_model"] == "social_force" for row in ours) == 1
-    assert all(row["model"] == "cadrl.pt" for row in ours)
+    crossing = [row for row in ours if row["people_model"] == "orca"]
+    assert [(row["humans"], row["seed"]) for row in crossing] == [
+        (size, seed) for size in (5, 10) for seed in (1, 2, "mean")
+    ]
+    for key in ("success", "discomfort"):
+        assert crossing[2][key] == pytest.approx((crossing[0][key] + crossing[1][key]) / 2)
+    assert sum(row["people_model"] == "social_force" for row in ours) == 3
     needed = "policy humans visible crowd kinematics lookahead seed cases success collision timeout time_s"
     assert all({*needed.split(), "discomfort"} <= set(row) for row in rows)
     shown = capsys.readouterr().out
-    assert shown.count("0.99 / 0.054 / 10.78") == 1
+    assert shown.count("0.99 / 0.054 / 10.78") == 3
     assert "recorded people: skipped" in shown
+    assert len(markdown.read_text().splitlines()) == len(rows) + 2
+    assert main([*arguments, "--only", "cadrl_seed2"]) == 0
+    assert json.loads(out.read_text()) == rows
 
 
 def test_row_without_a_success_is_json(tmp_path: Path, checkpoint: Path) -> None:

@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 import argparse
+import fnmatch
+import json
+import re
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -12,21 +15,20 @@ from typing import Any, Dict, List, Sequence
 import numpy as np
 
 from sarn_rl.actions import Kinematics
+from sarn_rl.checkpoint import load_checkpoint
 from sarn_rl.cli.evaluate import BENCHMARK_REWARD, described, evaluated_row
-from sarn_rl.cli.outputs import write_json
+from sarn_rl.cli.outputs import prepared, write_json
 from sarn_rl.cli.policy_options import Chosen, checkpoint_policy, checkpoint_world
 from sarn_rl.envs.cases import SPLIT_SIZES, CaseParams
 from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.evaluation.strangers import Strangers
+from sarn_rl.evaluation.summary import as_markdown, as_text, means, ordered
 from sarn_rl.policies.base import Policy
 from sarn_rl.policies.crowd_models import OrcaPolicy, SocialForcePolicy
 from sarn_rl.reward import RewardParams, discounted
 
-# Betancourt et al., Table I: success, collision, time to goal [s]. Its rates do not add up to 1.
-PAPER = {"sarl": (0.99, 0.018, 11.23), "cadrl": (0.99, 0.054, 10.78), "lstm_rl": (0.58, 0.63, 22.94)}
-CROWD_SIZES = (5, 10, 20)
-
-
+# With how many people policies are looked at, by what they were trained for.
+CROWD_SIZES, DENSE_CROWD_SIZES, OWN_CROWD_SIZE = (5, 10), (5, 10, 20), (5,)
 # Everybody else's way of walking is looked at with these only.
 STRANGERS_FOR = ("sarl", "cadrl")
 
@@ -39,26 +41,51 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "--recordings", type=Path, help="directory of recorded people (*.txt: frame person x y)"
     )
+    parser.add_argument("--markdown", type=Path, help="write the table here too")
+    parser.add_argument(
+        "--only", metavar="PATTERN", help="checkpoints of such names (sarl_per_*); --out keeps its other rows"
+    )
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
     if not options.models.is_dir():
         raise ValueError(f"--models: {options.models} is not a directory of checkpoints")
+    kept = _rows_kept(options)
     checkpoints = sorted(options.models.glob("*.pt"))
     if not checkpoints:
         print(f"sarn_rl: {options.models}: no *.pt: baselines only", file=sys.stderr)
+    wanted = [path for path in checkpoints if fnmatch.fnmatch(path.stem, options.only or "*")]
+    rows = [row for row in kept if row.get("model") not in {path.name for path in wanted}]
     strangers = Strangers(
         EnvironmentParams(), BENCHMARK_REWARD, options.recordings, options.count or SPLIT_SIZES["test"]
     )
-    rows = baseline_rows(options.count) + orca_among_strangers(strangers)
-    for path in checkpoints:
+    if options.only is None:
+        rows += baseline_rows(options.count) + orca_among_strangers(strangers)
+    for path in wanted:
         rows += model_rows(path, options.count, strangers)
-    print(format_table(rows))
+        _write(options, rows)
+    print(as_text(_write(options, rows)))
     for word in strangers.skipped:
         print(word)
-    write_json(options.out, rows)
     return 0
+
+
+def _rows_kept(options: argparse.Namespace) -> List[Dict[str, Any]]:
+    """Of an earlier table, where only some checkpoints are evaluated again."""
+    if options.only is None or options.out is None or not options.out.exists():
+        return []
+    rows = json.loads(options.out.read_text(encoding="utf-8"))
+    return [row for row in rows if row["seed"] != "mean"]
+
+
+def _write(options: argparse.Namespace, rows: List[Dict[str, Any]]) -> List[Dict[str, Any]]:
+    """Writes what there is, with means over seeds; the rows in their order."""
+    everything = ordered([*rows, *means(rows)])
+    write_json(options.out, everything)
+    if options.markdown is not None:
+        prepared(options.markdown).write_text(as_markdown(everything), encoding="utf-8")
+    return everything
 
 
 def baseline_rows(count: Any) -> List[Dict[str, Any]]:
@@ -89,14 +116,25 @@ def orca_among_strangers(strangers: Strangers) -> List[Dict[str, Any]]:
 
 
 def model_rows(path: Path, count: Any, strangers: Strangers) -> List[Dict[str, Any]]:
-    """In the world of its training: with crowds of other sizes, and with other models of people."""
+    """In the world of its training: with crowds of other sizes; some among other models of people."""
     chosen, own = checkpoint_policy(path), checkpoint_world(path)
-    worlds = [replace(own, cases=replace(own.cases, people=humans)) for humans in CROWD_SIZES]
-    worlds.append(replace(own, people_model="social_force"))
-    rows = [_row(chosen, world, count) for world in worlds]
-    if chosen.policy.kinematics is not Kinematics.TURTLEBOT and chosen.name in STRANGERS_FOR:
+    training = re.sub(r"_seed\d+$", "", path.stem)
+    sizes = crowd_sizes(path)
+    rows = [_row(chosen, replace(own, cases=replace(own.cases, people=size)), count) for size in sizes]
+    if sizes == CROWD_SIZES and chosen.name in STRANGERS_FOR:
+        rows.append(_row(chosen, replace(own, people_model="social_force"), count))
         rows += _strangers_rows(chosen, strangers)
-    return [{**row, "model": path.name} for row in rows]
+    return [{**row, "model": path.name, "training": training} for row in rows]
+
+
+def crowd_sizes(path: Path) -> Sequence[int]:
+    """Those that say something: more people where it was trained for more, less where it was for a norm."""
+    checkpoint = load_checkpoint(path)
+    contract = checkpoint.contract
+    if contract.actions.kinematics is not Kinematics.HOLONOMIC or contract.reward.norm != "none":
+        return OWN_CROWD_SIZE
+    trained_with = checkpoint.origin["configuration"].get("learning", {}).get("people", ())
+    return DENSE_CROWD_SIZES if max(trained_with, default=0) > max(OWN_CROWD_SIZE) else CROWD_SIZES
 
 
 def _baseline(policy: Policy, name: str) -> Chosen:
@@ -114,45 +152,3 @@ def _strangers_rows(chosen: Chosen, strangers: Strangers) -> List[Dict[str, Any]
     discount = float(discounted(chosen.gamma, world.time_step, np.array(world.cases.robot_speed)))
     about = described(chosen, world, False)
     return [{**about, **row} for row in strangers.rows(chosen.policy, discount)]
-
-
-def format_table(rows: List[Dict[str, Any]]) -> str:
-    """Rows as text; the paper's figures stand beside those of its setting."""
-    head = (
-        "policy",
-        "humans",
-        "seed",
-        "success",
-        "collision",
-        "timeout",
-        "time [s]",
-        "discomfort",
-        "paper (s/c/t)",
-    )
-    lines = [head]
-    for row in rows:
-        name = row["policy"] + (f" {row['safety_space']:g}" if "safety_space" in row else "")
-        name += " visible" if row["visible"] else ""
-        name += "" if row["kinematics"] == "holonomic" else f" {row['kinematics']}"
-        name += "" if row["people_model"] == "orca" else f" among {row['people_model']}"
-        name += " peek" if row["lookahead"] == "peek" else ""
-        theirs = PAPER.get(row["policy"]) if _is_papers(row) else None
-        lines.append(
-            (
-                name,
-                str(row["humans"]),
-                "" if row["seed"] < 0 else str(row["seed"]),
-                *(f"{row[key]:.3f}" for key in ("success", "collision", "timeout")),
-                "" if row["time_s"] is None else f"{row['time_s']:.2f}",
-                f"{row['discomfort']:.3f}",
-                "{:.2f} / {:.3f} / {:.2f}".format(*theirs) if theirs else "",
-            )
-        )
-    widths = [max(len(line[column]) for line in lines) for column in range(len(head))]
-    return "\n".join(
-        "  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in lines
-    )
-
-
-def _is_papers(row: Dict[str, Any]) -> bool:
-    return bool(row["humans"] == 5 and row["people_model"] == "orca" and row["kinematics"] == "holonomic")
