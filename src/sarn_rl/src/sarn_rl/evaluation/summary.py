@@ -98,7 +98,7 @@ def _cells(row: Row) -> Tuple[str, ...]:
 
 
 def _name(row: Row) -> str:
-    name: str = row.get("training", row["policy"])
+    name = str(row.get("training", row["policy"]))
     name += f" {row['safety_space']:g}" if "safety_space" in row else ""
     name += " visible" if row["visible"] else ""
     name += "" if row["people_model"] == "orca" else f" among {row['people_model']}"
