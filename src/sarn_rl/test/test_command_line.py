@@ -127,7 +127,7 @@ def test_watch_draws_paths_and_a_video(tmp_path: Path) -> None:
     assert picture.n_frames > 20
 
 
-def test_curves_are_drawn_from_logs(tmp_path: Path) -> None:
+def test_curves_are_drawn_from_logs(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
     run = tmp_path / "run"
     run.mkdir()
     lines = [
@@ -139,9 +139,11 @@ def test_curves_are_drawn_from_logs(tmp_path: Path) -> None:
             "discounted_return": 0.1 * n,
         }
         for n in range(1, 6)
-    ] + [{"event": "validation", "episodes": 5, "success": 0.5}]
+    ] + [{"event": "validation", "episodes": n, "success": 0.2 * n} for n in range(6)]
     (run / "log.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
-    assert main(["curves", f"per={run}", "--out", str(tmp_path / "curves.png")]) == 0
+    seeds = [f"per={run}", f"per={run}"]
+    assert main(["curves", *seeds, "--out", str(tmp_path / "curves.png")]) == 0
+    assert "per: episodes to a validation success of 0.95: 5, 5" in capsys.readouterr().out
     assert Image.open(tmp_path / "curves.png").size == (700, 800)
     assert main(["curves", f"per={tmp_path / 'none'}", "--out", str(tmp_path / "c.png")]) == 1
 

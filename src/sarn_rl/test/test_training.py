@@ -156,6 +156,8 @@ def test_killed_run_goes_on_from_its_checkpoint(tmp_path: Path, monkeypatch: pyt
     assert 12 <= kept < 20
     with pytest.raises(CheckpointError, match="--resume"):
         trained(tiny(), tmp_path)
+    with (tmp_path / LOG_FILE).open("a", encoding="utf-8") as log:
+        log.write('{"event": "episode", "num')
     trained(tiny(), tmp_path, resume=True)
     numbers = [entry["number"] for entry in events(tmp_path, "episode")]
     assert numbers == list(range(1, len(numbers) + 1)) and len(numbers) >= 24
@@ -244,3 +246,37 @@ def test_target_network_is_the_running_mean_of_the_learned_one() -> None:
         assert torch.allclose(new, old + 0.25)
     learner.refresh_target()
     assert same(learner.network.state_dict(), learner.target.state_dict())
+
+
+def test_rehearsal_keeps_what_the_memory_does_not_hold() -> None:
+    """A batch of one remembered state beside lessons of another: only rehearsed lessons are kept."""
+    from sarn_rl.networks.factory import make_network
+    from sarn_rl.observation import Observation
+    from sarn_rl.training.imitation import Demonstrations, rehearse
+    from sarn_rl.training.replay import ReplayMemory
+    from sarn_rl.training.transitions import Transitions
+
+    def states(distance: float, people: int) -> Observation:
+        robot = np.tile(np.array([distance, 1.0, 0.0, 0.0, 0.3], dtype=np.float32), (32, 1))
+        return Observation(robot, np.ones((32, people, 7), np.float32), np.ones((32, people), dtype=bool))
+
+    met, lesson = states(4.0, 3), states(0.5, 1)
+    goal, nothing = np.full(32, 0.2, np.float32), np.zeros(32, np.float32)
+    transitions = Transitions(*met, met.robot, met.people, goal, nothing)
+    values = np.full(32, 0.9, np.float32)
+    lessons = Demonstrations(lesson, values, transitions, None)
+    errors = {}
+    for count in (0, 16):
+        torch.manual_seed(0)
+        random = np.random.default_rng(0)
+        learner = Learner(make_network(NetworkParams("sarl"), 5, 0.9), LearningParams(batch_size=16))
+        memory = ReplayMemory(ReplayParams(capacity=32), transitions)
+        memory.add(transitions)
+        for _ in range(80):
+            learner.update(memory, 1.0, random, rehearse(lessons, count, False, random))
+        with torch.no_grad():
+            value = learner.network(*(torch.from_numpy(part) for part in lesson))
+            learned = learner.network(*(torch.from_numpy(part) for part in met))
+        assert float((learned - 0.2).abs().max()) < 0.05
+        errors[count] = float((value - 0.9).abs().max())
+    assert errors[16] < 0.05 < 0.3 < errors[0]

@@ -17,7 +17,7 @@ from sarn_rl.lookahead import Lookahead
 from sarn_rl.networks.base import ValueNetwork
 from sarn_rl.observation import Observation
 from sarn_rl.reward import discounted
-from sarn_rl.training.learner import DivergedError, mirror_half, set_learning_rate, tensors
+from sarn_rl.training.learner import DivergedError, Rehearsed, mirror_half, set_learning_rate, tensors
 from sarn_rl.training.params import ImitationParams, TrainingParams
 from sarn_rl.training.teacher import Teacher
 from sarn_rl.training.transitions import Transitions, episode_transitions, joined, monte_carlo_returns
@@ -151,6 +151,17 @@ def imitate(
         if not np.isfinite(total):
             raise DivergedError(f"the imitation loss is not finite in epoch {epoch + 1}")
         report(epoch + 1, total / batches)
+
+
+def rehearse(
+    demonstrations: Demonstrations, count: int, mirror: bool, random: np.random.Generator
+) -> Optional[Rehearsed]:
+    """Some of them, drawn alike; None for none."""
+    if count == 0:
+        return None
+    rows = np.sort(random.integers(len(demonstrations.returns), size=count))
+    state, goal = _rows(demonstrations, rows, mirror, random)
+    return Rehearsed(state, goal.numpy())
 
 
 def cosine(start: float, end: float, progress: float) -> float:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import copy
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 import torch
@@ -37,6 +37,31 @@ def mirror_half(observation: Observation, which: np.ndarray) -> Observation:
     )
 
 
+class Rehearsed(NamedTuple):
+    """Attributes:
+    states: of demonstrations or lessons.
+    values: (B,) float32 theirs.
+    """
+
+    states: Observation
+    values: np.ndarray
+
+
+def joined_observations(first: Observation, second: Observation) -> Observation:
+    """Both, one after the other, with as many rows of people as the larger crowd has."""
+    most = max(first.people.shape[1], second.people.shape[1])
+    return Observation(
+        np.concatenate([first.robot, second.robot]),
+        np.concatenate([_with_rows(part.people, most) for part in (first, second)]),
+        np.concatenate([_with_rows(part.present, most) for part in (first, second)]),
+    )
+
+
+def _with_rows(people: np.ndarray, most: int) -> np.ndarray:
+    missing = most - people.shape[1]
+    return np.pad(people, ((0, 0), (0, missing), *((0, 0),) * (people.ndim - 2))) if missing else people
+
+
 def set_learning_rate(optimizer: torch.optim.Optimizer, rate: float) -> None:
     for group in optimizer.param_groups:
         group["lr"] = rate
@@ -59,7 +84,13 @@ class Learner:
     def set_learning_rate(self, rate: float) -> None:
         set_learning_rate(self._optimizer, rate)
 
-    def update(self, memory: ReplayMemory, beta: float, random: np.random.Generator) -> float:
+    def update(
+        self,
+        memory: ReplayMemory,
+        beta: float,
+        random: np.random.Generator,
+        rehearsed: Optional[Rehearsed] = None,
+    ) -> float:
         """One gradient step; the mean squared error of the batch. DivergedError when it is not finite."""
         places, batch, weights = memory.sample(self._params.batch_size, beta, random)
         state = Observation(batch.robot, batch.people, batch.present)
@@ -70,10 +101,14 @@ class Learner:
         with torch.no_grad():
             later = self.target(*tensors(after))
             goal = torch.from_numpy(batch.reward) + torch.from_numpy(batch.discount) * later
+        if rehearsed is not None:
+            state = joined_observations(state, rehearsed.states)
+            goal = torch.cat([goal, torch.from_numpy(rehearsed.values)])
+            weights = np.concatenate([weights, np.ones(len(rehearsed.values), dtype=np.float32)])
         errors = self.network(*tensors(state)) - goal
         loss = (torch.from_numpy(weights) * errors * errors).mean()
         self._descend(loss)
-        numbers = errors.detach().numpy()
+        numbers = errors.detach().numpy()[: len(places)]
         memory.update(places, numbers)
         return float(np.mean(numbers * numbers))
 

@@ -147,6 +147,8 @@ class LearningParams:
         checkpoint_episodes: episodes between checkpoints.
         warmup_episodes: episodes before the first gradient step.
         people: how many, of one training case after the other; none: as in the environment.
+        rehearsal: demonstrations or lessons in a batch, in parts of batch_size, at the first episode; falls
+            linearly to none at the last. They say what states are worth that the policy does not meet.
     """
 
     episodes: int = 4000
@@ -167,6 +169,7 @@ class LearningParams:
     checkpoint_episodes: int = 500
     warmup_episodes: int = 0
     people: Tuple[int, ...] = ()
+    rehearsal: float = 0.0
 
     def problems(self) -> Tuple[str, ...]:
         names = (
@@ -187,7 +190,7 @@ class LearningParams:
                 found.append(f"{name}: {getattr(self, name)} is not >= 0")
         if min(self.people, default=0) < 0:
             found.append(f"people: {list(self.people)} is not a list of numbers >= 0")
-        for name in ("epsilon_start", "epsilon_end", "target_rate"):
+        for name in ("epsilon_start", "epsilon_end", "target_rate", "rehearsal"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 found.append(f"{name}: {getattr(self, name)} is not in 0..1")
         return tuple(found)

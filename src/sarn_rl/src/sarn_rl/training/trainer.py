@@ -24,7 +24,7 @@ from sarn_rl.networks.packed import packed
 from sarn_rl.policies.value_policy import ValuePolicy
 from sarn_rl.training.collector import Collector, Finished
 from sarn_rl.training.commit import source_commit
-from sarn_rl.training.imitation import Demonstrations, cosine, demonstrate, imitate, taught
+from sarn_rl.training.imitation import Demonstrations, cosine, demonstrate, imitate, rehearse, taught
 from sarn_rl.training.learner import DivergedError, Learner
 from sarn_rl.training.params import TrainingParams
 from sarn_rl.training.progress import ProgressLine
@@ -95,7 +95,7 @@ class Trainer:
                 if self._params.imitation.keep:
                     memory.add(demonstrations.transitions)
                 self._validate()
-            self._learn(memory)
+            self._learn(memory, demonstrations)
             self._save(memory)
             result = self._validate()
             self._progress.close()
@@ -134,7 +134,7 @@ class Trainer:
         imitate(self._network, demonstrations, self._params.imitation, mirror, self._random, report)
         self._learner.refresh_target()
 
-    def _learn(self, memory: ReplayMemory) -> None:
+    def _learn(self, memory: ReplayMemory, demonstrations: Demonstrations) -> None:
         learning = self._params.learning
         collector = Collector(self._params, self._lookahead, self._next_case)
         warm = self._episodes + learning.warmup_episodes if not self._learner.updates else 0
@@ -148,18 +148,20 @@ class Trainer:
                 self._count(episode)
             self._next_case = collector.next_case
             if self._episodes >= warm and len(memory) >= learning.batch_size:
-                self._timed("gradient_steps", lambda: self._update(memory))
+                self._timed("gradient_steps", lambda: self._update(memory, demonstrations))
             self._after(before, memory)
 
-    def _update(self, memory: ReplayMemory) -> None:
+    def _update(self, memory: ReplayMemory, demonstrations: Demonstrations) -> None:
         learning, replay = self._params.learning, self._params.replay
         progress = self._episodes / max(1, learning.episodes)
         self._learner.set_learning_rate(
             cosine(learning.learning_rate, learning.final_learning_rate, progress)
         )
         beta = replay.beta_start + (1.0 - replay.beta_start) * min(1.0, progress)
+        count = round(learning.rehearsal * max(0.0, 1.0 - progress) * learning.batch_size)
         for _ in range(learning.updates_per_step):
-            self._loss = self._learner.update(memory, beta, self._random)
+            rehearsed = rehearse(demonstrations, count, learning.mirror, self._random)
+            self._loss = self._learner.update(memory, beta, self._random, rehearsed)
 
     def _after(self, before: int, memory: ReplayMemory) -> None:
         learning = self._params.learning
@@ -320,12 +322,15 @@ def _passed(before: int, now: int, every: int) -> bool:
 
 
 def _keep_log_until(path: Path, episodes: int) -> None:
-    """Drops what was logged after the checkpoint: those episodes come again."""
+    """Drops what was logged after the checkpoint, and a line that was cut off: those episodes come again."""
     if not path.exists():
         return
     kept: List[str] = []
     for line in path.read_text(encoding="utf-8").splitlines():
-        entry = json.loads(line)
+        try:
+            entry = json.loads(line)
+        except json.JSONDecodeError:  # killed, or the disk was full
+            break
         if entry.get("number", entry.get("episodes", 0)) > episodes:
             break
         kept.append(line)
