@@ -21,6 +21,7 @@
 #include <string>
 
 #include "drawn_map.h"
+#include "sarn_common_ros/call_service.h"
 #include "sarn_common_ros/conversions.h"
 
 namespace sarn_localization {
@@ -183,7 +184,7 @@ TEST_F(LocalizationNodeTest, findsAndKeepsThePose) {
 TEST_F(LocalizationNodeTest, findsThePoseByTheGlobalService) {
   startAt({1.0, 1.0, 2.0});
   std_srvs::Empty call;
-  ASSERT_TRUE(ros::service::call("global_localization", call));
+  ASSERT_TRUE(sarn::callService("global_localization", call));
   for (int i = 0; i < 150; ++i) drive();
   EXPECT_LT(error(), 0.2);
 }

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "sarn_common_ros/call_service.h"
+
 namespace {
 
 // Rows from the smallest y: the image's last row first.
@@ -43,7 +45,7 @@ TEST(MapServer, latchesMapAndMetadata) {
 TEST(MapServer, servesStaticMap) {
   ASSERT_TRUE(ros::service::waitForService("/static_map", kPatience));
   nav_msgs::GetMap call;
-  ASSERT_TRUE(ros::service::call("/static_map", call));
+  ASSERT_TRUE(sarn::callService("/static_map", call));
   expectTinyMap(call.response.map);
 }
 

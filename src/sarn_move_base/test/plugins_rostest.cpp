@@ -27,6 +27,7 @@
 #include "sarn_common/angles.h"
 #include "sarn_common/people.h"
 #include "sarn_common/pose2d.h"
+#include "sarn_common_ros/call_service.h"
 #include "sarn_common_ros/conversions.h"
 
 namespace {
@@ -316,7 +317,7 @@ TEST_F(Plugins, layerIsTunedLive) {
   call.request.config.doubles.push_back(radius);
   ros::AsyncSpinner spinner(1);
   spinner.start();
-  ASSERT_TRUE(ros::service::call("~/global_costmap/social_layer/set_parameters", call));
+  ASSERT_TRUE(sarn::callService("~/global_costmap/social_layer/set_parameters", call));
   spinner.stop();
   costmap_->updateMap();
   EXPECT_LT(costAt(5.4, 3.0), 253);

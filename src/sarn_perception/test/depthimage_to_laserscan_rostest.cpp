@@ -11,6 +11,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sarn_common_ros/call_service.h"
 #include "wait_for.h"
 
 namespace sarn_perception {
@@ -126,14 +127,14 @@ TEST_F(DepthToScanNodeTest, isReconfiguredLive) {
   call.request.config.doubles[0].name = "range_max";
   call.request.config.doubles[0].value = 3.0;
   ASSERT_TRUE(ros::service::waitForService("/depthimage_to_laserscan/set_parameters", 20000));
-  ASSERT_TRUE(ros::service::call("/depthimage_to_laserscan/set_parameters", call));
+  ASSERT_TRUE(sarn::callService("/depthimage_to_laserscan/set_parameters", call));
   send(1.0, 4000);
   ASSERT_TRUE(waitFor([this] { return received_.size() == 1; }));
   EXPECT_FLOAT_EQ(received_[0].range_max, 3.0F);
   EXPECT_EQ(received_[0].ranges[300], std::numeric_limits<float>::infinity()) << "shipped policy: inf";
   // Refused: the limits would cross. The old ones stay.
   call.request.config.doubles[0].value = 0.1;
-  ASSERT_TRUE(ros::service::call("/depthimage_to_laserscan/set_parameters", call));
+  ASSERT_TRUE(sarn::callService("/depthimage_to_laserscan/set_parameters", call));
   send(2.0, 2000);
   ASSERT_TRUE(waitFor([this] { return received_.size() == 2; }));
   EXPECT_FLOAT_EQ(received_[1].range_max, 3.0F);

@@ -125,7 +125,7 @@ TEST_F(Behaviour, resetStartsANewEpisodeWhileTheClockRunsOn) {
   const ros::Time before = step(0);
   sarn_msgs::Reset reset;
   reset.request.seed = 99;
-  ASSERT_TRUE(ros::service::call("/kobuki_sim/reset", reset));
+  ASSERT_TRUE(sarn::callService("/kobuki_sim/reset", reset));
   EXPECT_TRUE(reset.response.success);
   EXPECT_NE(reset.response.message.find("99"), std::string::npos);
   stepPacket();
@@ -141,7 +141,7 @@ TEST_F(Behaviour, aSeedRepeatsAnEpisodeExactly) {
   const auto endOfDrive = [this] {
     sarn_msgs::Reset reset;
     reset.request.seed = 5;
-    EXPECT_TRUE(ros::service::call("/kobuki_sim/reset", reset));
+    EXPECT_TRUE(sarn::callService("/kobuki_sim/reset", reset));
     const ros::Time start = step(0);
     Recorder<nav_msgs::Odometry> odometry("/odom");
     EXPECT_TRUE(odometry.awaitConnection());
@@ -163,7 +163,7 @@ TEST_F(Behaviour, stepsExactlyAsManyTimesAsAskedAndOnlyWhilePaused) {
   pause(false);
   sarn_msgs::Step call;
   call.request.steps = 1;
-  ASSERT_TRUE(ros::service::call("/kobuki_sim/step", call));
+  ASSERT_TRUE(sarn::callService("/kobuki_sim/step", call));
   EXPECT_FALSE(call.response.success);
   EXPECT_NE(call.response.message.find("pause"), std::string::npos);
 }

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "sarn_common_ros/call_service.h"
+
 namespace kobuki_sim {
 
 inline constexpr double kPatience = 30.0;  // [s] wall: a condition that takes longer has failed
@@ -61,7 +63,7 @@ class PausedSim : public testing::Test {
     pause(true);
     sarn_msgs::Reset reset;
     reset.request.keep_seed = 1;
-    ASSERT_TRUE(ros::service::call("/kobuki_sim/reset", reset));
+    ASSERT_TRUE(sarn::callService("/kobuki_sim/reset", reset));
     ASSERT_TRUE(await([this] { return velocity_.getNumSubscribers() > 0; }));
     ASSERT_TRUE(truth_.awaitConnection());
     truth_.messages.clear();
@@ -70,14 +72,14 @@ class PausedSim : public testing::Test {
   static void pause(bool paused) {
     std_srvs::SetBool call;
     call.request.data = paused ? 1 : 0;
-    ASSERT_TRUE(ros::service::call("/kobuki_sim/pause", call));
+    ASSERT_TRUE(sarn::callService("/kobuki_sim/pause", call));
     ASSERT_TRUE(call.response.success);
   }
 
   static ros::Time step(std::uint32_t steps) {
     sarn_msgs::Step call;
     call.request.steps = steps;
-    EXPECT_TRUE(ros::service::call("/kobuki_sim/step", call));
+    EXPECT_TRUE(sarn::callService("/kobuki_sim/step", call));
     EXPECT_TRUE(call.response.success) << call.response.message;
     return call.response.time;
   }
@@ -86,7 +88,7 @@ class PausedSim : public testing::Test {
     sarn_msgs::InjectEvent call;
     call.request.event = event;
     call.request.active = active ? 1 : 0;
-    EXPECT_TRUE(ros::service::call("/kobuki_sim/inject", call));
+    EXPECT_TRUE(sarn::callService("/kobuki_sim/inject", call));
     return call.response;
   }
 
