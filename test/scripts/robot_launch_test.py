@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""robot.launch with a simulator in place of the drivers: RViz's pose, a goal, then the keyboard (a rostest node)."""
+"""robot.launch with a simulator in place of the drivers: RViz's pose, a goal, the keyboard (a rostest node)."""
 
 from __future__ import annotations
 
 import contextlib
+import functools
 import math
 import os
 import pty
@@ -27,7 +28,9 @@ GOAL = (4.2, 6.0)  # [m] map frame: along the corridor
 PATIENCE = 60.0  # [s] wall, for anything that is waited for
 
 
-def await_condition(condition: Callable[[], bool], what: str, each_time: Callable[[], None] = lambda: None) -> None:
+def await_condition(
+    condition: Callable[[], bool], what: str, each_time: Callable[[], None] = lambda: None
+) -> None:
     """Waits in wall time, with something to do each time; fails naming what did not come."""
     deadline = time.monotonic() + PATIENCE
     while not condition():
@@ -44,8 +47,12 @@ def keyboard() -> Iterator[Callable[[str], None]]:
     node = subprocess.Popen(
         ["rosrun", "sarn_navigation", "keyboard_teleop"], stdin=its, stdout=its, start_new_session=True
     )
+
+    def press(key: str) -> None:
+        os.write(ours, key.encode())
+
     try:
-        yield lambda key: void(os.write(ours, key.encode()))
+        yield press
     finally:
         os.killpg(node.pid, signal.SIGINT)
         try:
@@ -53,10 +60,6 @@ def keyboard() -> Iterator[Callable[[str], None]]:
         finally:
             os.close(its)
             os.close(ours)
-
-
-def void(_: object) -> None:
-    """Nothing."""
 
 
 class RobotLaunchTest(unittest.TestCase):
@@ -104,15 +107,13 @@ class RobotLaunchTest(unittest.TestCase):
     def drive_by_keyboard(self) -> None:
         with keyboard() as press:
             for key, what, moves in (
-                (",", "backward", lambda twist: twist.linear.x < -0.1),
-                ("i", "forward", lambda twist: twist.linear.x > 0.1),
-                ("j", "to the left", lambda twist: twist.angular.z > 0.3),
+                (",", "drives backward", lambda: self.odometry.twist.twist.linear.x < -0.1),
+                ("i", "drives forward", lambda: self.odometry.twist.twist.linear.x > 0.1),
+                ("j", "turns left", lambda: self.odometry.twist.twist.angular.z > 0.3),
             ):
-                await_condition(
-                    lambda moves=moves: moves(self.odometry.twist.twist), f"turn or drive {what}", lambda key=key: press(key)
-                )
+                await_condition(moves, what, functools.partial(press, key))
             self.assertIn("teleop", self.active_input.lower())
-        await_condition(lambda: abs(self.odometry.twist.twist.linear.x) < 0.01, "stand still afterwards")
+        await_condition(lambda: abs(self.odometry.twist.twist.linear.x) < 0.01, "stands still afterwards")
 
 
 if __name__ == "__main__":
