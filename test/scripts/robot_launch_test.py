@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""robot.launch with a simulator in place of the drivers: RViz's pose, a goal, the keyboard (a rostest node)."""
+"""robot.launch, a simulator in place of the drivers: RViz's pose, a goal, the keyboard (a rostest node)."""
 
 from __future__ import annotations
 
