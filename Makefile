@@ -12,7 +12,7 @@ JOBS ?= 2
 TORCH_INDEX ?=
 export JOBS TORCH_INDEX
 
-.PHONY: help setup build sim map view test check bench train table clean distclean
+.PHONY: help setup build sim map view test check sanitize bench train table clean distclean
 
 help:  ## Show this list
 	@printf 'SARN: a TurtleBot2 that drives among people.\n\nTargets:\n'
@@ -50,6 +50,9 @@ test:  ## Set up, check, build, and run every test
 
 check:  ## Format, lint, types and layer rules
 	@tools/check
+
+sanitize:  ## Tests of the cores under ASan, UBSan and TSan, and a minute of fuzzing (build/asan, build/tsan)
+	@tools/sanitize
 
 bench:  ## Measure speed; writes build/bench.json
 	@tools/bench

@@ -51,14 +51,21 @@ void checkResult(const lattice_planner::PlanResult& result, const lattice_planne
   }
 }
 
-lattice_planner::LatticePlanner& planner() {
-  static lattice_planner::LatticePlanner shared = [] {
-    lattice_planner::PlannerParams params;
-    params.table_radius = 0.4;
-    params.max_expansions = 2000;
-    return lattice_planner::LatticePlanner(params);
-  }();
-  return shared;  // one for all: nothing may be left over from the last input
+lattice_planner::LatticePlanner makePlanner(const char* footprint, bool allow_unknown) {
+  lattice_planner::PlannerParams params;
+  params.table_radius = 0.4;
+  params.max_expansions = 2000;
+  params.footprint = footprint;
+  params.allow_unknown = allow_unknown;
+  return lattice_planner::LatticePlanner(params);
+}
+
+/// One round robot and one that is not, for all inputs: nothing may be left over from the last one.
+lattice_planner::LatticePlanner& planner(bool round) {
+  static lattice_planner::LatticePlanner disc = makePlanner("", false);
+  static lattice_planner::LatticePlanner box =
+      makePlanner("[[0.3, 0.12], [-0.2, 0.12], [-0.2, -0.12], [0.3, -0.12]]", true);
+  return round ? disc : box;
 }
 
 }  // namespace
@@ -95,6 +102,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                    bytes.number(-5.0, 5.0)};
   request.goal = {x(), y(), bytes.number(-7.0, 7.0)};
   request.time_limit = 60.0;
-  checkResult(planner().plan(request, view), request);
+  checkResult(planner(bytes.byte() % 2 == 0).plan(request, view), request);
   return 0;
 }

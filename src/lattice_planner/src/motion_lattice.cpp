@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lattice_planner/footprint.h"
+
 namespace lattice_planner {
 namespace {
 
@@ -30,6 +32,14 @@ std::vector<int> reachable(const std::vector<double>& speeds, double speed, doub
   return indices;
 }
 
+/// Neither the centre nor, while it turns, a corner goes farther between two samples than is to be checked.
+int samplesFor(const PlannerParams& params) {
+  const double corner = parseFootprint(params.footprint).circumscribed_radius;  // 0: round
+  const double fastest = std::max(params.max_vel_x, -params.min_vel_x) + corner * params.max_vel_theta;
+  return std::max(
+      1, static_cast<int>(std::ceil(fastest * params.time_step / params.collision_check_distance - 1e-9)));
+}
+
 }  // namespace
 
 MotionLattice::MotionLattice(const PlannerParams& params)
@@ -40,8 +50,7 @@ MotionLattice::MotionLattice(const PlannerParams& params)
       acc_lim_x_(params.acc_lim_x),
       acc_lim_theta_(params.acc_lim_theta),
       max_speed_(std::max(params.max_vel_x, -params.min_vel_x)),
-      samples_per_step_(std::max(
-          1, static_cast<int>(std::ceil(max_speed_ * time_step_ / params.collision_check_distance - 1e-9)))),
+      samples_per_step_(samplesFor(params)),
       v_(multiples(params.min_vel_x, params.max_vel_x, params.acc_lim_x * time_step_)),
       omega_(multiples(-params.max_vel_theta, params.max_vel_theta, params.acc_lim_theta * time_step_)) {
   standing_v_ = static_cast<int>(std::lround(-params.min_vel_x / (acc_lim_x_ * time_step_)));

@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
+
+#include "lattice_planner/footprint.h"
 
 namespace lattice_planner {
 namespace {
@@ -32,6 +35,11 @@ std::vector<std::string> PlannerParams::conflicts() const {
   const double turns = 2.0 * max_vel_theta / (acc_lim_theta * time_step) + 1.0;
   if (!(turns >= 2.5 && turns < 31.5)) {
     all.emplace_back("max_vel_theta: the lattice must have between 3 and 31 angular speeds");
+  }
+  try {
+    (void)parseFootprint(footprint);
+  } catch (const std::invalid_argument& error) {
+    all.push_back("footprint: '" + footprint + "': " + error.what());
   }
   return all;
 }

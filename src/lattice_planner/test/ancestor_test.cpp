@@ -101,6 +101,26 @@ TEST(AncestorsFaults, whatIsCutShortSaysSoStandsAtItsEndAndIsCloser) {
   }
 }
 
+// Fault 3, too: where people run over every place that can be reached, two plans of 0.1 m were called a
+// success.
+TEST(AncestorsFaults, peopleWhoRunOverEveryPlaceLeaveNoPlanThatIsCalledComplete) {
+  World world = World::room(3.0, 1.0);
+  world.addLayers(20, 0.5);
+  for (int layer = 4; layer < 20; ++layer) world.paint(layer, 1.0, 0.5, 1.6);  // everywhere near, from 2 s on
+  for (const bool forget : {true, false}) {
+    PlannerParams params = defaults();
+    params.forget_moving_people = forget;
+    params.max_expansions = 20000;
+    LatticePlanner planner(params);
+    const PlanRequest task = request({0.4, 0.5, sarn::kPi}, {2.8, 0.5, 0.0});
+    const PlanResult result = planner.plan(task, world.view());
+    EXPECT_NE(result.status, PlanStatus::kComplete) << forget;
+    EXPECT_NE(result.status, PlanStatus::kGoalAnyPose) << forget;
+    ASSERT_FALSE(result.trajectory.empty()) << forget;
+    EXPECT_EQ(result.trajectory.points.back().v, 0.0) << forget;
+  }
+}
+
 // Fault 4: the ancestor sleeps until its time is up. Here a plan in hand comes back: this test would take a
 // day.
 TEST(AncestorsFaults, doesNotUseUpItsTime) {
@@ -183,6 +203,33 @@ TEST(AncestorsFaults, peopleAreMetWhereTheyAreDuringAnAction) {
   const PlanResult result = planner.plan(task, world.view());
   ASSERT_EQ(result.status, PlanStatus::kComplete);
   EXPECT_TRUE(faults(result.trajectory, task, params, world).empty());
+}
+
+// Fault 8: standing in cost c pays nine samples, both ends of a step twice. Here a second in it costs the
+// same however it is spent.
+TEST(AncestorsFaults, waitingInACostPaysByTheSecond) {
+  PlannerParams params = defaults();
+  params.improvement_effort = 0.0;
+  LatticePlanner planner(params);
+  World world = World::room(3.0, 0.4);
+  world.addLayers(12, 0.5);
+  world.paintStatic(0.4, 0.2, 0.6, 63);  // a quarter of the full cost at the start
+  for (int layer = 0; layer < 8; ++layer) world.paint(layer, 1.5, 0.2, 0.45);  // somebody, until 4 s
+  const PlanResult result = planner.plan(request({0.4, 0.2, 0.0}, {2.6, 0.2, 0.0}), world.view());
+  ASSERT_EQ(result.status, PlanStatus::kComplete);
+  double exposed = 0.0;  // [s] in the cost, by fine sampling
+  for (double t = 0.0; t < result.trajectory.endTime(); t += 0.005) {
+    const auto p = result.trajectory.sample(t + 0.0025);
+    if (world.costAt(p.x, p.y, 1e9) == 63) exposed += 0.005;
+  }
+  ASSERT_GT(exposed, 1.0);
+  double rest =
+      result.trajectory.endTime() * params.time_weight + result.trajectory.length() * params.length_weight;
+  for (std::size_t i = 1; i < result.trajectory.points.size(); ++i) {
+    const auto& p = result.trajectory.points;
+    rest += params.rotation_weight * std::abs(0.5 * (p[i - 1].omega + p[i].omega)) * params.time_step;
+  }
+  EXPECT_NEAR(result.cost - rest, exposed * params.static_weight * 63.0 / 252.0, 0.1);
 }
 
 // Fault 15: arrays are sized once; a map of another size is read out of bounds.

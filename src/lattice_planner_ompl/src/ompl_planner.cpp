@@ -134,7 +134,7 @@ OmplOutcome OmplPlanner::planMeasured(const lattice_planner::PlanRequest& reques
   const Clock::time_point begin = Clock::now();
   OmplOutcome outcome;
   PlanResult& result = outcome.result;
-  const Problem problem{params_, costs};
+  const Problem problem = makeProblem(params_, costs);
   result.status = refuse(request, problem);
   if (result.status != PlanStatus::kComplete) return outcome;
 

@@ -87,6 +87,16 @@ double stepDuration(const lattice_planner::PlannerParams& params) {
   return params.time_step / std::ceil(fastest * params.time_step / params.collision_check_distance - 1e-9);
 }
 
+Problem makeProblem(const lattice_planner::PlannerParams& params, const sarn::TimedCostmapView& costs) {
+  Problem problem{params, costs};
+  const auto footprint = lattice_planner::parseFootprint(params.footprint);
+  const bool usable = costs.static_costs != nullptr && costs.geometry.resolution > 0.0;
+  if (footprint.round() || !usable) return problem;
+  problem.footprint = std::make_shared<lattice_planner::FootprintCheck>(footprint, params.allow_unknown);
+  problem.footprint->reset(costs);
+  return problem;
+}
+
 bool isFree(const Problem& problem, const sarn::TrajectoryPoint& point) {
   const auto cell = problem.costs.geometry.cellAt(point.x, point.y);
   if (!cell) return false;
@@ -97,7 +107,9 @@ bool isFree(const Problem& problem, const sarn::TrajectoryPoint& point) {
   };
   if (!allowed(problem.costs.static_costs[i])) return false;
   const int layer = problem.costs.layerAt(point.t);
-  return layer < 0 || allowed(problem.costs.layers[static_cast<std::size_t>(layer)][i]);
+  if (layer >= 0 && !allowed(problem.costs.layers[static_cast<std::size_t>(layer)][i])) return false;
+  return !problem.footprint || (problem.footprint->clearOfStatic(point.pose()) &&
+                                problem.footprint->clearOfPeople(point.pose(), layer));
 }
 
 oc::SpaceInformationPtr makeSpaceInformation(const Problem& problem, double start_time) {

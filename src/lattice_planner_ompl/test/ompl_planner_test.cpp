@@ -149,6 +149,16 @@ TEST_F(OmplTest, costOfAMotionIsThePlannersOwn) {
   EXPECT_GT(objective.motionCost(a.get(), b.get()).value(), 4 * dt * problem_.params.time_weight);
 }
 
+TEST_F(OmplTest, outlineOfTheRobotIsLookedAtToo) {
+  walls_.at(*walls_.geometry.cellAt(1.4, 2.0)) = 254;
+  EXPECT_TRUE(isFree(problem_, {1.0, 2.0, 0.0, 0.0, 0.0, 1.0}));
+  lattice_planner::PlannerParams params = problem_.params;
+  params.footprint = "[[0.5, 0.2], [-0.5, 0.2], [-0.5, -0.2], [0.5, -0.2]]";
+  const Problem problem = makeProblem(params, problem_.costs);
+  EXPECT_FALSE(isFree(problem, {1.0, 2.0, 0.0, 0.0, 0.0, 1.0})) << "its nose";
+  EXPECT_TRUE(isFree(problem, {1.0, 2.0, 1.57, 0.0, 0.0, 1.0}));
+}
+
 TEST_F(OmplTest, peopleForbidAPlaceOnlyAtTheirTime) {
   EXPECT_TRUE(isFree(problem_, {3.0, 2.0, 0.0, 0.0, 0.0, 1.0}));
   EXPECT_FALSE(isFree(problem_, {3.0, 2.0, 0.0, 0.0, 0.0, 5.0}));

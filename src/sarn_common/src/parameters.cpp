@@ -15,6 +15,13 @@ std::string rangeProblem(const std::string& key, double value, const Range& rang
 
 namespace detail {
 
+std::string textOf(const YAML::Node& list) {
+  YAML::Emitter out;
+  out.SetSeqFormat(YAML::Flow);
+  out << list;
+  return out.c_str();
+}
+
 std::vector<std::string> unknownKeys(const YAML::Node& node, const std::vector<std::string>& known) {
   if (!node || node.IsNull()) return {};
   if (!node.IsMap()) return {"not a map of keys to values"};

@@ -53,5 +53,13 @@ TEST(Parameters, readsYamlAndRefusesUnknownKeys) {
   EXPECT_EQ(setFromYaml(YAML::Load("{steps: many}"), sample).size(), 1U);
 }
 
+TEST(Parameters, takesAListForAStringAsItsText) {
+  Sample sample;
+  EXPECT_TRUE(setFromYaml(YAML::Load("frame: [[0.5, 1], [-2, 0.25]]"), sample).empty());
+  EXPECT_EQ(sample.frame, "[[0.5, 1], [-2, 0.25]]");
+  EXPECT_TRUE(setFromYaml(YAML::Load("frame:\n  - [0.5, 1]\n  - [-2, 0.25]"), sample).empty());
+  EXPECT_EQ(YAML::Load(sample.frame)[1][0].as<double>(), -2.0);
+}
+
 }  // namespace
 }  // namespace sarn

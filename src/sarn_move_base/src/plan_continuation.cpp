@@ -34,31 +34,32 @@ bool same(const sarn::Pose2D& a, const sarn::Pose2D& b) {
 
 PlanContinuation::PlanContinuation(const lattice_planner::PlannerParams& planner,
                                    const ContinuationParams& params)
-    : params_(checked(params)), planner_(planner) {}
+    : params_(checked(params)),
+      planner_(planner),
+      footprint_(lattice_planner::parseFootprint(planner.footprint), planner.allow_unknown) {}
 
 /// The robot is where the last plan has it, and what it will do while the search runs is still free.
-bool PlanContinuation::isDriven(const ContinuationRequest& request,
-                                const sarn::TimedCostmapView& costs) const {
+bool PlanContinuation::isDriven(const ContinuationRequest& request, const sarn::TimedCostmapView& costs) {
   if (!last_ || request.now < last_->plan.result.trajectory.startTime() - params_.release_delay) return false;
   const sarn::TimedTrajectory& trajectory = last_->plan.result.trajectory;
   const sarn::Pose2D expected = trajectory.sample(request.now).pose();
   const double turned = sarn::angleDifference(expected.theta, request.robot.theta);
   return (expected.position() - request.robot.position()).norm() <= params_.max_position_error &&
          std::abs(turned) <= params_.max_heading_error &&
-         !sarn_navigation::firstConflict(trajectory, costs, request.now, request.now + params_.release_delay);
+         !sarn_navigation::firstConflict(trajectory, costs, request.now, request.now + params_.release_delay,
+                                         &footprint_);
 }
 
-bool PlanContinuation::leadsToGoal(const ContinuationRequest& request,
-                                   const sarn::TimedCostmapView& costs) const {
+bool PlanContinuation::leadsToGoal(const ContinuationRequest& request, const sarn::TimedCostmapView& costs) {
   const sarn::TimedTrajectory& trajectory = last_->plan.result.trajectory;
   return last_->plan.result.status == PlanStatus::kComplete && same(last_->wanted, request.goal) &&
-         !sarn_navigation::firstConflict(trajectory, costs, request.now, trajectory.endTime());
+         !sarn_navigation::firstConflict(trajectory, costs, request.now, trajectory.endTime(), &footprint_);
 }
 
 /// As the navigator does: a robot that changes its mind at every search, between two sides to pass on, passes
 /// on neither and nobody can read it.
 bool PlanContinuation::keepsLast(const ContinuationRequest& request, const PlanResult& offered,
-                                 const sarn::TimedCostmapView& costs) const {
+                                 const sarn::TimedCostmapView& costs) {
   if (!leadsToGoal(request, costs)) return false;
   if (offered.status != PlanStatus::kComplete) return true;
   const double release = offered.trajectory.startTime();
@@ -82,6 +83,7 @@ ContinuedPlan PlanContinuation::search(const sarn::TrajectoryPoint& start, const
 ContinuedPlan PlanContinuation::plan(const ContinuationRequest& request,
                                      const sarn::TimedCostmapView& costs) {
   const double release = request.now + params_.release_delay;
+  footprint_.reset(costs);
   if (!isDriven(request, costs)) last_.reset();
   if (last_) {
     const double to_its_end = last_->plan.result.trajectory.endTime() - request.now;

@@ -395,6 +395,55 @@ TEST_F(Plugins, plannerGoesRoundWalls) {
   }
 }
 
+/// The costmap's own footprint, as move_base has it: 1 m x 0.4 m.
+std::vector<geometry_msgs::Point> longFootprint() {
+  std::vector<geometry_msgs::Point> corners(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    corners[i].x = i == 0 || i == 3 ? 0.5 : -0.5;
+    corners[i].y = i < 2 ? 0.2 : -0.2;
+  }
+  return corners;
+}
+
+TEST_F(Plugins, plannerTakesTheCostmapsFootprint) {
+  walls_->add(4.0, 0.0, 6.0, 2.65);  // a passage of 0.7 m
+  walls_->add(4.0, 3.35, 6.0, 6.0);
+  costmap_->setUnpaddedRobotFootprint(longFootprint());
+  const auto planner = makePlanner();
+  Poses plan;
+  ASSERT_TRUE(planner->makePlan(stamped({2.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), plan));
+  for (const auto& pose : plan) {
+    const sarn::Pose2D at = *sarn::fromMessage(pose.pose);
+    for (const auto& corner : longFootprint()) {
+      const Eigen::Vector2d p = at * Eigen::Vector2d(corner.x, corner.y);
+      EXPECT_FALSE(p.x() > 4.0 && p.x() < 6.0 && std::abs(p.y() - 3.0) > 0.35) << p.transpose();
+    }
+  }
+  EXPECT_FALSE(planner->makePlan(stamped({2.0, 3.0, 0.0}), stamped({5.0, 3.0, 1.57}), plan)) << "across";
+  costmap_->setUnpaddedRobotFootprint({});  // round: its centre may be there at any heading
+  EXPECT_TRUE(makePlanner()->makePlan(stamped({2.0, 3.0, 0.0}), stamped({5.0, 3.0, 1.57}), plan));
+}
+
+TEST_F(Plugins, planningChangesNoCostAndTheCostmapOutlivesItsPlugins) {
+  walls_->add(4.0, 1.0, 4.2, 6.0);
+  const auto costs = [this] {
+    const costmap_2d::Costmap2D& costmap = *costmap_->getCostmap();
+    const unsigned char* const cells = costmap.getCharMap();
+    return std::vector<unsigned char>(cells, cells + costmap.getSizeInCellsX() * costmap.getSizeInCellsY());
+  };
+  costmap_->updateMap();
+  const auto before = costs();
+  for (int round = 0; round < 2; ++round) {
+    const auto planner = makePlanner();
+    const auto follower = makeFollower(costmap_.get());
+    Poses plan;
+    ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), plan));
+    EXPECT_EQ(costs(), before) << "no border, no people are written into somebody else's costmap";
+  }
+  costmap_->updateMap();  // both are gone
+  EXPECT_EQ(costs(), before);
+}
+
 TEST_F(Plugins, plannerRefusesWhatItCannotPlan) {
   walls_->add(7.5, 2.5, 8.5, 3.5);
   const auto planner = makePlanner();

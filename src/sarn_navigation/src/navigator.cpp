@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "lattice_planner/commit.h"
-#include "sarn_navigation/plan_conflict.h"
 #include "sarn_navigation/reachable_area.h"
 #include "sarn_navigation/yield_spot.h"
 
@@ -39,12 +38,13 @@ std::string at(const sarn::Pose2D& pose) {
 }  // namespace
 
 Navigator::Navigator(const NavigatorParams& params, const timed_path_follower::FollowerParams& follower,
-                     PlanFunction plan, CostFunction cost)
+                     PlanFunction plan, CostFunction cost, const lattice_planner::FootprintCheck& footprint)
     : params_(params),
       follower_(follower),
       yield_monitor_(params),
       recovery_(params),
       progress_(params.progress_distance),
+      footprint_(footprint),
       cost_(std::move(cost)),
       worker_(std::move(plan)) {}
 
@@ -178,13 +178,10 @@ void Navigator::adoptResult(const NavigatorInput& input) {
 /// A plan that still leads to the goal is kept until a new one is clearly cheaper on the newest costs: a
 /// robot that changes its mind at every search, between two sides to pass on, passes on neither and nobody
 /// can read it.
-bool Navigator::keepsPlan(const lattice_planner::PlanResult& result, const NavigatorInput& input) const {
+bool Navigator::keepsPlan(const lattice_planner::PlanResult& result, const NavigatorInput& input) {
   const double release = result.trajectory.startTime();
   if (!cost_ || committed_.empty() || trajectory_status_ != PlanStatus::kComplete) return false;
-  if (trajectory_.endTime() <= release ||
-      firstConflict(trajectory_, *input.scene, input.now, trajectory_.endTime())) {
-    return false;
-  }
+  if (trajectory_.endTime() <= release || conflictUntil(trajectory_.endTime(), input)) return false;
   if (result.status != PlanStatus::kComplete) return true;
   const double kept = cost_(trajectory_, *input.scene, release);
   const double offered = cost_(result.trajectory, *input.scene, release);
@@ -223,10 +220,34 @@ void Navigator::planWhenDue(const NavigatorInput& input) {
 // --- supervision
 // -------------------------------------------------------------------------------------------------
 
+lattice_planner::FootprintCheck& Navigator::footprintIn(const NavigatorInput& input) {
+  if (footprint_.active() && footprint_scene_ != input.scene) {
+    footprint_scene_ = input.scene;
+    footprint_.reset(*footprint_scene_);
+  }
+  return footprint_;
+}
+
+/// Of the trajectory that is being driven, from now on.
+std::optional<Conflict> Navigator::conflictUntil(double end, const NavigatorInput& input) {
+  return firstConflict(trajectory_, *input.scene, input.now, end, &footprintIn(input));
+}
+
+/// False: a robot that is not round would touch something in turning where it stands.
+bool Navigator::mayTurn(const NavigatorInput& input) {
+  lattice_planner::FootprintCheck& footprint = footprintIn(input);
+  if (!footprint.active() || !input.scene->geometry.cellAt(input.pose.x, input.pose.y)) return true;
+  constexpr int kHeadings = 36;
+  for (int i = 0; i < kHeadings; ++i) {
+    const double turn = 2.0 * sarn::kPi * i / kHeadings;
+    if (!footprint.clearOfStatic({input.pose.x, input.pose.y, input.pose.theta + turn})) return false;
+  }
+  return true;
+}
+
 void Navigator::superviseConflict(const NavigatorInput& input) {
   if (trajectory_.empty()) return;
-  const auto conflict =
-      firstConflict(trajectory_, *input.scene, input.now, input.now + params_.conflict_horizon);
+  const auto conflict = conflictUntil(input.now + params_.conflict_horizon, input);
   if (!conflict) return;
   next_plan_time_ = std::min(next_plan_time_, input.now);
   const double braking_time = std::abs(input.twist.v) / params_.acc_lim_x + params_.brake_margin;
@@ -262,7 +283,7 @@ void Navigator::recoverOrGiveUp(const NavigatorInput& input, const std::string& 
     return;
   }
   ++recoveries_;
-  recovery_.start(input.now, input.pose.theta);
+  recovery_.start(input.now, input.pose.theta, mayTurn(input));
   setState(NavigatorState::kRecovering, reason);
 }
 

@@ -8,9 +8,10 @@
 
 namespace sarn_navigation {
 
-void RecoverySequence::start(double now, double heading) {
+void RecoverySequence::start(double now, double heading, bool turn) {
   phase_ = Phase::kWait;
   clear_ = true;
+  turn_ = turn;
   phase_start_ = now;
   last_heading_ = heading;
   turned_ = 0.0;
@@ -22,7 +23,7 @@ bool RecoverySequence::takeClearRequest() { return std::exchange(clear_, false);
 
 sarn::Twist2D RecoverySequence::step(double now, double heading) {
   if (phase_ == Phase::kWait && now - phase_start_ >= params_.recovery_wait) {
-    phase_ = Phase::kTurn;
+    phase_ = turn_ ? Phase::kTurn : Phase::kIdle;
     phase_start_ = now;
     last_heading_ = heading;
   }

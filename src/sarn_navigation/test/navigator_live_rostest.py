@@ -38,10 +38,10 @@ class LiveTest(unittest.TestCase):
         assert cls.run_with_person(60.0, lambda: len(cls.layer) > 0), "no costs"
 
     @classmethod
-    def run_with_person(cls, limit: float, condition: Any) -> bool:
+    def run_with_person(cls, limit: float, condition: Any, frame: str = "map") -> bool:
         def told() -> bool:
             prediction = PeoplePrediction()
-            prediction.header.frame_id = "map"
+            prediction.header.frame_id = frame
             prediction.header.stamp = rospy.Time.from_sec(cls.world.now)
             prediction.time_step = rospy.Duration(0.5)
             state = PredictedState(x=PERSON[0], y=PERSON[1])
@@ -97,6 +97,15 @@ class LiveTest(unittest.TestCase):
         self.assertLess(near, 0.5, "nobody minds")
         self.assertGreater(far, near + 0.3)
         self.client("costmap/social").update_configuration({"forbidden_radius": 0.5})
+
+    def test_people_of_another_frame_are_not_seen(self) -> None:
+        self.assertTrue(self.run_with_person(10.0, lambda: self.cost_beside_person(0.0) == 100))
+        gone = self.run_with_person(10.0, lambda: self.cost_beside_person(0.0) == 0, "camera_depth_frame")
+        self.assertTrue(gone, "the last who were said to be in map are too old by now")
+        self.assertGreaterEqual(
+            self.world.said("frame is 'camera_depth_frame', expected 'map'", "/move_base"), 1
+        )
+        self.assertTrue(self.run_with_person(10.0, lambda: self.cost_beside_person(0.0) == 100))
 
     def test_what_is_out_of_range_or_no_number_does_not_get_through(self) -> None:
         tuner = self.client("planner")

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <future>
 #include <string>
 #include <utility>
 #include <vector>
@@ -117,6 +118,61 @@ TEST(Navigator, givesUpAfterItsRecoveriesWithAReason) {
   EXPECT_TRUE(drive.runUntil(NavigatorState::kAborted, 60.0));
   EXPECT_NE(drive.navigator().status().reason.find("after 2 recoveries"), std::string::npos);
   EXPECT_EQ(drive.twist().v, 0.0);
+}
+
+TEST(Navigator, doesNotTurnToRecoverWhereItsOutlineHasNoRoom) {
+  for (const bool is_long : {true, false}) {
+    DrawnScene scene(
+        {"###############", "....#..........", "....#..........", "....#..........", "###############"});
+    NavigatorParams params;
+    params.progress_timeout = 1.0;
+    params.recovery_wait = 0.1;
+    params.max_recoveries = 1;
+    lattice_planner::Footprint footprint;
+    if (is_long)
+      footprint = lattice_planner::parseFootprint("[[0.45, 0.2], [-0.45, 0.2], [-0.45, -0.2], [0.45, -0.2]]");
+    Navigator navigator(params, {},
+                        [](const auto&, const auto&) {
+                          lattice_planner::PlanResult none;
+                          none.status = lattice_planner::PlanStatus::kNoPath;
+                          return none;
+                        },
+                        {}, {footprint, false});
+    const sarn::Pose2D pose{0.5, 0.6, 0.0};
+    ASSERT_EQ(navigator.setGoal({3.0, 0.6, 0.0}, {100.0, pose, {}, scene.shared()}), "");
+    bool turned = false;
+    for (double now = 100.0; navigator.hasGoal() && now < 160.0; now += kPeriod) {
+      turned = navigator.step({now, pose, {}, scene.shared()}).omega != 0.0 || turned;
+    }
+    EXPECT_EQ(turned, !is_long);
+    EXPECT_EQ(navigator.status().state, NavigatorState::kAborted);
+  }
+}
+
+TEST(Navigator, controlsWhileASearchRuns) {
+  DrawnScene scene(room(32, 8));
+  std::promise<void> release;
+  const auto released = release.get_future().share();
+  lattice_planner::LatticePlanner planner(plannerParams());
+  int searches = 0;
+  Navigator navigator({}, {}, [&](const auto& request, const auto& view) {
+    if (++searches == 2) released.wait();  // a search that takes as long as it likes
+    return planner.plan(request, view);
+  });
+  sarn::Pose2D pose{0.6, 1.0, 0.0};
+  sarn::Twist2D twist;
+  double now = 100.0;
+  const auto step = [&] {
+    twist = navigator.step({now, pose, twist, scene.shared()});
+    pose = sarn::advance(pose, twist, kPeriod);
+    now += kPeriod;
+  };
+  ASSERT_EQ(navigator.setGoal({7.0, 1.0, 0.0}, {now, pose, twist, scene.shared()}), "");
+  step();
+  navigator.waitForPlanDue(now + 1.0);   // the first
+  for (int i = 0; i < 100; ++i) step();  // 5 s
+  EXPECT_GT(pose.x, 2.0) << "drives its plan on";
+  release.set_value();
 }
 
 TEST(Navigator, movesAsideForSomebodyWhoseWayItBlocksAndStaysCalmOtherwise) {

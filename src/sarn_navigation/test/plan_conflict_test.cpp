@@ -54,6 +54,20 @@ TEST(PlanConflict, allowsTheWayOutOfAForbiddenPlace) {
                              0.0, 9.0));
 }
 
+TEST(PlanConflict, looksAtTheOutlineOfARobotThatIsNotRound) {
+  // Below its way, x in [1, 1.25].
+  DrawnScene scene({"..........", "..........", "..........", "..........", "....#....."});
+  scene.addEmptyLayer();
+  lattice_planner::FootprintCheck footprint(
+      lattice_planner::parseFootprint("[[0.3, 0.4], [-0.3, 0.4], [-0.3, -0.4], [0.3, -0.4]]"), false);
+  footprint.reset(scene.view());
+  EXPECT_FALSE(firstConflict(straight(), scene.view(), 10.0, 20.0));
+  const auto conflict = firstConflict(straight(), scene.view(), 10.0, 20.0, &footprint);
+  ASSERT_TRUE(conflict);
+  EXPECT_FALSE(conflict->with_people);
+  EXPECT_NEAR(conflict->where.x, 0.7, 0.2) << "its nose is there first";
+}
+
 TEST(PlanConflict, leavingTheMapIsOne) {
   DrawnScene scene(kFree);
   EXPECT_TRUE(firstConflict({{{1.0, 0.3, 0.0, 0.5, 0.0, 0.0}, {3.5, 0.3, 0.0, 0.5, 0.0, 5.0}}}, scene.view(),

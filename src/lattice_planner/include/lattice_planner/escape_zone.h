@@ -21,6 +21,8 @@ class EscapeZone {
              double radius);
 
   [[nodiscard]] bool active() const { return active_; }
+  /// Within the window around the start where the rule holds.
+  [[nodiscard]] bool inWindow(const sarn::CellIndex& cell) const;
   /// Static cells of the window count as passable for the distance field.
   [[nodiscard]] bool exemptsStatic(const sarn::CellIndex& cell) const;
   /// May the robot go from cell `from` to the forbidden cell `to`? `layer` is the time layer then, -1 for
@@ -28,7 +30,6 @@ class EscapeZone {
   [[nodiscard]] bool allows(const sarn::CellIndex& from, const sarn::CellIndex& to, int layer);
 
  private:
-  [[nodiscard]] bool inWindow(const sarn::CellIndex& cell) const;
   [[nodiscard]] bool forbidden(const sarn::CellIndex& cell, int layer) const;
   [[nodiscard]] const std::vector<int>& depths(int layer);
   [[nodiscard]] std::size_t local(const sarn::CellIndex& cell) const;

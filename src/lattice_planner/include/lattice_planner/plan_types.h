@@ -9,11 +9,11 @@
 namespace lattice_planner {
 
 enum class PlanStatus {
-  kComplete,         // ends standing inside both goal tolerances
-  kGoalAnyPose,      // ends standing within xy_goal_tolerance (plus the braking distance), at another heading
-  kPartial,          // ends standing on the way, at the reached place closest to the goal
-  kStartOccupied,    // the start cell is lethal in the static layer
-  kGoalOccupied,     // the goal cell is forbidden in the static layer
+  kComplete,       // ends standing inside both goal tolerances
+  kGoalAnyPose,    // ends standing within xy_goal_tolerance (plus the braking distance), at another heading
+  kPartial,        // ends standing on the way, at the reached place closest to the goal
+  kStartOccupied,  // the start cell is lethal in the static layer
+  kGoalOccupied,  // the goal cell is forbidden in the static layer, or the footprint fits nowhere at the goal
   kGoalOutsideMap,   //
   kStartOutsideMap,  //
   kNoPath,           // no motion brings the robot closer; the trajectory, if any, only brakes

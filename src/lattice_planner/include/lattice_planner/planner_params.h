@@ -39,6 +39,9 @@ struct PlannerParams {
   bool forget_moving_people = true;
 
   // What is forbidden.
+  // The robot's outline in its base frame [m] as costmap_2d's footprint: a list of [x, y]. Empty: round, and
+  // only its centre is looked at, on costs inflated by its radius.
+  std::string footprint;
   int forbidden_cost = 253;                // cells of this cost or more, static or social, are forbidden
   bool allow_unknown = false;              // cells without information may be entered, at cost 126
   double collision_check_distance = 0.04;  // [m] between checked points of a motion, at full speed
@@ -82,6 +85,7 @@ struct PlannerParams {
     v("combine_with_max", p.combine_with_max);
     v("charge_cells", p.charge_cells);
     v("forget_moving_people", p.forget_moving_people);
+    v("footprint", p.footprint);
     v("forbidden_cost", p.forbidden_cost, {1.0, 254.0});
     v("allow_unknown", p.allow_unknown);
     v("collision_check_distance", p.collision_check_distance, {0.005, 0.5});

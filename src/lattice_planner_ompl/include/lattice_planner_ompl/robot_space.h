@@ -6,6 +6,9 @@
 #include <ompl/base/goals/GoalRegion.h>
 #include <ompl/control/SpaceInformation.h>
 
+#include <memory>
+
+#include "lattice_planner/footprint_check.h"
 #include "lattice_planner/planner_params.h"
 #include "sarn_common/timed_costmap_view.h"
 #include "sarn_common/timed_trajectory.h"
@@ -18,8 +21,13 @@ namespace lattice_planner_ompl {
 struct Problem {
   lattice_planner::PlannerParams params;
   sarn::TimedCostmapView costs;
-  double longest = 60.0;  // [s] no plan takes longer
+  double longest = 60.0;                                                 // [s] no plan takes longer
+  std::shared_ptr<lattice_planner::FootprintCheck> footprint = nullptr;  // of a robot that is not round
 };
+
+/// With what params.footprint asks for. Throws std::invalid_argument when that is no outline.
+[[nodiscard]] Problem makeProblem(const lattice_planner::PlannerParams& params,
+                                  const sarn::TimedCostmapView& costs);
 
 /// The state space (x, y, theta) x (v, omega) x t as OMPL states.
 [[nodiscard]] sarn::TrajectoryPoint pointOf(const ompl::base::State* state);
@@ -35,7 +43,7 @@ void setState(ompl::base::State* state, const sarn::TrajectoryPoint& point);
 [[nodiscard]] ompl::control::SpaceInformationPtr makeSpaceInformation(const Problem& problem,
                                                                       double start_time);
 
-/// True when the robot's centre may be there then, by the lattice's rules.
+/// True when the robot may be there then, by the lattice's rules.
 [[nodiscard]] bool isFree(const Problem& problem, const sarn::TrajectoryPoint& point);
 
 /// C = sum w_i c_i, summed over the steps between two states that constant accelerations join.

@@ -22,7 +22,7 @@
 ///
 /// From that list follow: problems() (every out-of-range value at once), fieldNames(), setFromYaml() and, in
 /// sarn_common_ros, reading the parameter server. Fields are double, int, bool or std::string; a range is
-/// inclusive.
+/// inclusive. A list given for a string is taken as its text, "[[0.1, 0.2], [0.3, 0.4]]".
 namespace sarn {
 
 struct Range {
@@ -54,6 +54,9 @@ struct NameVisitor {
   }
 };
 
+/// A YAML list in one line.
+[[nodiscard]] std::string textOf(const YAML::Node& list);
+
 struct YamlVisitor {
   const YAML::Node& node;
   std::vector<std::string> problems;
@@ -61,6 +64,12 @@ struct YamlVisitor {
   void operator()(const char* key, T& value, const Range& = {}) {
     if (!node[key]) return;
     try {
+      if constexpr (std::is_same_v<T, std::string>) {
+        if (node[key].IsSequence()) {
+          value = textOf(node[key]);
+          return;
+        }
+      }
       value = node[key].template as<T>();
     } catch (const YAML::Exception&) {
       problems.push_back(std::string(key) + ": not a " + (std::is_same_v<T, bool> ? "bool" : "valid value"));

@@ -4,7 +4,10 @@
 #include <ros/console.h>
 #include <ros/names.h>
 
+#include <XmlRpcValue.h>
+
 #include <algorithm>
+#include <sstream>
 
 namespace sarn {
 namespace detail {
@@ -20,6 +23,21 @@ void read(ros::NodeHandle& nh, const char* key, T& value, const char* type,
   ROS_INFO_STREAM(nh.resolveName(key) << " = " << value);
 }
 
+/// A list of numbers, texts and lists in one line, as YAML.
+std::string textOf(XmlRpc::XmlRpcValue& value) {
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) return static_cast<std::string&>(value);
+  std::ostringstream text;
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) {
+    text.precision(17);
+    value.write(text);
+    return text.str();
+  }
+  text << "[";
+  for (int i = 0; i < value.size(); ++i) text << (i == 0 ? "" : ", ") << textOf(value[i]);
+  text << "]";
+  return text.str();
+}
+
 }  // namespace
 
 void ServerVisitor::operator()(const char* key, double& value, const Range&) {
@@ -32,6 +50,12 @@ void ServerVisitor::operator()(const char* key, bool& value, const Range&) {
   read(nh_, key, value, "true or false", problems);
 }
 void ServerVisitor::operator()(const char* key, std::string& value, const Range&) {
+  XmlRpc::XmlRpcValue list;
+  if (nh_.getParam(key, list) && list.getType() == XmlRpc::XmlRpcValue::TypeArray) {
+    value = textOf(list);
+    ROS_INFO_STREAM(nh_.resolveName(key) << " = " << value);
+    return;
+  }
   read(nh_, key, value, "a string", problems);
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Command line: python -m sarn_evaluation run | metrics | report | picture."""
+"""Command line: python -m sarn_evaluation run | compare | metrics | report | picture."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from sarn_evaluation.scenario import ScenarioError
 _EXAMPLES = """examples:
   python -m sarn_evaluation run scenario:=queue seed:=3      drive a scenario, judge it
   python -m sarn_evaluation run --seeds 20 rate:=0           twenty seeds of the office, and a report
+  python -m sarn_evaluation compare -o runs/table            every scenario, planner and seed; resumable
   python -m sarn_evaluation metrics runs/*/run.bag           every metric of each bag (also of a real robot's)
   python -m sarn_evaluation metrics --json run.bag           the same for programs
   python -m sarn_evaluation report runs/                     statistics over all runs below a folder
@@ -28,6 +29,19 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.seeds:
         return run_seeds(arguments.arguments, arguments.runs, arguments.seeds)
     return run(arguments.arguments, arguments.runs)
+
+
+def _compare(arguments: argparse.Namespace) -> int:
+    from sarn_evaluation.compare import compare
+
+    return compare(
+        arguments.scenarios,
+        arguments.planners,
+        arguments.seeds,
+        arguments.output.resolve(),
+        arguments.arguments,
+        arguments.keep_bags,
+    )
 
 
 def _metrics(arguments: argparse.Namespace) -> int:
@@ -82,6 +96,19 @@ def _parser() -> argparse.ArgumentParser:
     )
     run.add_argument("--seeds", type=int, metavar="N", help="one run for each seed 1..N, and a report")
     run.set_defaults(function=_run)
+    from sarn_evaluation.compare import PLANNERS
+
+    compare = commands.add_parser("compare", help="the closed-loop table: scenarios x planners x seeds")
+    compare.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="arguments of sim.launch")
+    compare.add_argument("--scenarios", nargs="+", default=[], metavar="NAME", help="default: all shipped")
+    compare.add_argument("--planners", nargs="+", default=list(PLANNERS), metavar="NAME")
+    compare.add_argument("--seeds", type=int, default=20, metavar="N", help="one run for each seed 1..N")
+    compare.add_argument("--keep-bags", action="store_true", help="some MB each")
+    compare.add_argument(
+        "-o", "--output", type=Path, default=Path(os.environ.get("SARN_RUNS", "runs")) / "compare",
+        help="runs and tables; the same folder again: goes on where it was ended",
+    )  # fmt: skip
+    compare.set_defaults(function=_compare)
     metrics = commands.add_parser("metrics", help="every metric of a bag")
     metrics.add_argument("bags", nargs="+", type=Path)
     metrics.add_argument("--json", action="store_true", help="one JSON object a line")

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lattice_planner/footprint_check.h"
 #include "lattice_planner/lattice_planner.h"
 #include "sarn_common/parameters.h"
 #include "sarn_common/timed_costmap_view.h"
@@ -69,16 +70,16 @@ class PlanContinuation {
     ContinuedPlan plan;
     sarn::Pose2D wanted;  // the request's goal
   };
-  [[nodiscard]] bool isDriven(const ContinuationRequest& request, const sarn::TimedCostmapView& costs) const;
-  [[nodiscard]] bool leadsToGoal(const ContinuationRequest& request,
-                                 const sarn::TimedCostmapView& costs) const;
+  [[nodiscard]] bool isDriven(const ContinuationRequest& request, const sarn::TimedCostmapView& costs);
+  [[nodiscard]] bool leadsToGoal(const ContinuationRequest& request, const sarn::TimedCostmapView& costs);
   [[nodiscard]] bool keepsLast(const ContinuationRequest& request, const lattice_planner::PlanResult& offered,
-                               const sarn::TimedCostmapView& costs) const;
+                               const sarn::TimedCostmapView& costs);
   [[nodiscard]] ContinuedPlan search(const sarn::TrajectoryPoint& start, const ContinuationRequest& request,
                                      const sarn::TimedCostmapView& costs);
 
   ContinuationParams params_;
   lattice_planner::LatticePlanner planner_;
+  lattice_planner::FootprintCheck footprint_;  // reset to the present costs
   std::optional<Last> last_;
 };
 

@@ -42,7 +42,8 @@ void LatticePlanner::initialize(std::string name, costmap_2d::Costmap2DROS* cost
   frame_ = costmap_ros_->getGlobalFrameID();
   ros::NodeHandle nh("~/" + name_);
   try {
-    const auto config = sarn::readParameters<PlannerPluginConfig>(nh, {"social"});
+    auto config = sarn::readParameters<PlannerPluginConfig>(nh, {"social"});
+    if (config.footprint.empty()) config.footprint = toString(footprintOf(*costmap_ros_));
     people_.setParams(sarn::readParameters<social_costmap::SocialParams>(ros::NodeHandle(nh, "social")));
     planner_ = std::make_unique<PlanContinuation>(config, config);
     tf_listener_.emplace(tf_);

@@ -56,6 +56,7 @@ void TimedPathFollower::initialize(std::string name, tf2_ros::Buffer* tf,
     const auto config = sarn::readParameters<FollowerPluginConfig>(ros::NodeHandle("~/" + name_));
     params_ = config;
     limits_ = {config.max_vel_x, config.max_vel_theta, config.acc_lim_x, config.acc_lim_theta};
+    footprint_ = {footprintOf(*costmap_ros_), true};
     follower_ = std::make_unique<timed_path_follower::TimedPathFollower>(config);
   } catch (const std::exception& error) {
     ROS_FATAL("%s: %s", name_.c_str(), error.what());
@@ -186,13 +187,14 @@ bool TimedPathFollower::locateCostmap() {
   return false;
 }
 
-bool TimedPathFollower::touches(const sarn::Pose2D& robot_in_plan) const {
+bool TimedPathFollower::touches(const sarn::Pose2D& robot_in_plan) {
   const costmap_2d::Costmap2D& costmap = *costmap_ros_->getCostmap();
   const sarn::Pose2D robot = costmap_from_plan_ * robot_in_plan;
   const auto cell = geometryOf(costmap).cellAt(robot.x, robot.y);
   if (!cell) return false;
   const std::uint8_t cost = costmap.getCost(static_cast<unsigned>(cell->x), static_cast<unsigned>(cell->y));
-  return cost >= sarn::kInscribedObstacle && cost != sarn::kNoInformation;
+  if (cost >= sarn::kInscribedObstacle && cost != sarn::kNoInformation) return true;
+  return footprint_.active() && !footprint_.clearOfStatic(robot);
 }
 
 TimedPathFollower::Answer TimedPathFollower::control() {
@@ -207,6 +209,7 @@ TimedPathFollower::Answer TimedPathFollower::control() {
     follower_->setCollisionQuery([this](const sarn::Pose2D& pose) { return touches(pose); });
   }
   const boost::unique_lock<costmap_2d::Costmap2D::mutex_t> lock(*costmap_ros_->getCostmap()->getMutex());
+  footprint_.reset(viewOf(*costmap_ros_->getCostmap()));
   return follow(*fix, now);
 }
 

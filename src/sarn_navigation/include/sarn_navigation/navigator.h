@@ -6,10 +6,12 @@
 #include <optional>
 #include <string>
 
+#include "lattice_planner/footprint_check.h"
 #include "sarn_common/people.h"
 #include "sarn_common/timed_costmap_view.h"
 #include "sarn_common/timed_trajectory.h"
 #include "sarn_navigation/navigator_params.h"
+#include "sarn_navigation/plan_conflict.h"
 #include "sarn_navigation/planning_worker.h"
 #include "sarn_navigation/progress_monitor.h"
 #include "sarn_navigation/recovery_sequence.h"
@@ -55,9 +57,9 @@ struct NavigatorStatus {
 /// recovers, gives up. No ROS and no clock of its own: step() is called at controller_frequency.
 class Navigator {
  public:
-  /// `cost`: what `plan` minimises; without it every new plan is taken over.
+  /// `cost`: what `plan` minimises; without it every new plan is taken over. `footprint`: as the planner's.
   Navigator(const NavigatorParams& params, const timed_path_follower::FollowerParams& follower,
-            PlanFunction plan, CostFunction cost = {});
+            PlanFunction plan, CostFunction cost = {}, const lattice_planner::FootprintCheck& footprint = {});
 
   /// Takes a goal, dropping any other. Returns why it is refused; empty: accepted.
   [[nodiscard]] std::string setGoal(const sarn::Pose2D& goal, const NavigatorInput& input);
@@ -94,12 +96,14 @@ class Navigator {
 
   // Planning.
   void adoptResult(const NavigatorInput& input);
-  [[nodiscard]] bool keepsPlan(const lattice_planner::PlanResult& result, const NavigatorInput& input) const;
+  [[nodiscard]] bool keepsPlan(const lattice_planner::PlanResult& result, const NavigatorInput& input);
   void adoptPlan(const lattice_planner::PlanResult& result);
   void planWhenDue(const NavigatorInput& input);
   [[nodiscard]] std::optional<sarn::TrajectoryPoint> planStart(const NavigatorInput& input);
   void dropPlan();
   [[nodiscard]] sarn::Pose2D target() const { return yield_ ? yield_->spot : *goal_; }
+  [[nodiscard]] std::optional<Conflict> conflictUntil(double end, const NavigatorInput& input);
+  [[nodiscard]] lattice_planner::FootprintCheck& footprintIn(const NavigatorInput& input);
   // Supervision.
   void superviseConflict(const NavigatorInput& input);
   void superviseProgress(const NavigatorInput& input);
@@ -107,6 +111,7 @@ class Navigator {
   void superviseYield(const NavigatorInput& input);
   void startYield(const NavigatorInput& input, const BlockedPerson& person);
   void endYield(double now);
+  [[nodiscard]] bool mayTurn(const NavigatorInput& input);
   [[nodiscard]] bool standsStill(const NavigatorInput& input) const;
   [[nodiscard]] double distanceToGoal(const sarn::Pose2D& pose) const;
   // Control.
@@ -141,6 +146,8 @@ class Navigator {
   int recoveries_ = 0;
   std::string plan_failure_;  // of the last search; empty: it gave a plan
 
+  lattice_planner::FootprintCheck footprint_;
+  std::shared_ptr<const sarn::TimedCostmapView> footprint_scene_;  // what it was reset to
   CostFunction cost_;
   PlanningWorker worker_;  // last member: its thread ends before the rest
 };

@@ -13,7 +13,8 @@ class RecoverySequence {
  public:
   explicit RecoverySequence(const NavigatorParams& params) : params_(params) {}
 
-  void start(double now, double heading);
+  /// `turn`: there is room to turn.
+  void start(double now, double heading, bool turn = true);
   void reset();
   [[nodiscard]] bool active() const { return phase_ != Phase::kIdle; }
   /// True once, at the beginning of each sequence: obstacles are to be cleared now.
@@ -27,6 +28,7 @@ class RecoverySequence {
   NavigatorParams params_;
   Phase phase_ = Phase::kIdle;
   bool clear_ = false;
+  bool turn_ = true;
   double phase_start_ = 0.0;   // [s]
   double last_heading_ = 0.0;  // [rad]
   double turned_ = 0.0;        // [rad]

@@ -70,7 +70,8 @@ NavigatorNode::NavigatorNode(const ros::NodeHandle& nh, const ros::NodeHandle& p
       costmap_(config_.costmap),
       planner_(std::make_shared<LivePlanner>(config_.planner)),
       navigator_(config_.navigator, config_.follower, makePlanFunction(config_.node.search, planner_),
-                 makeCostFunction(planner_)),
+                 makeCostFunction(planner_),
+                 {lattice_planner::parseFootprint(config_.planner.footprint), config_.planner.allow_unknown}),
       display_(private_nh_, config_.node.global_frame, config_.node.visualization_frequency),
       diagnostics_(nh_, private_nh_, kStalePlans / config_.navigator.planner_frequency),
       lockstep_(nh_, topics::kLockstep) {
@@ -134,6 +135,7 @@ void NavigatorNode::onPeople(const people_msgs::People& message) {
                           "', expected '" + config_.node.global_frame + "'; these people are ignored");
     return;
   }
+  if (config_.node.social == "off") return;  // whoever the scan sees is an obstacle like any other
   costmap_.setPeople(sarn::fromMessage(message), message.header.stamp.toSec());
 }
 

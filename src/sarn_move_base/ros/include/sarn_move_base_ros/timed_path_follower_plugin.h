@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "lattice_planner/footprint_check.h"
 #include "sarn_common/pose2d.h"
 #include "sarn_move_base/timed_plan.h"
 #include "sarn_move_base_ros/plugin_parameters.h"
@@ -82,7 +83,7 @@ class TimedPathFollower : public nav_core::BaseLocalPlanner
   void onOdometry(const nav_msgs::Odometry& message);
   /// Finds costmap_from_plan_; false, and one line, when tf does not know it.
   [[nodiscard]] bool locateCostmap();
-  [[nodiscard]] bool touches(const sarn::Pose2D& robot_in_plan) const;
+  [[nodiscard]] bool touches(const sarn::Pose2D& robot_in_plan);
 
   std::mutex mutex_;  // everything below but motion_
   std::string name_;
@@ -90,6 +91,7 @@ class TimedPathFollower : public nav_core::BaseLocalPlanner
   costmap_2d::Costmap2DROS* costmap_ros_ = nullptr;
   FollowerPluginParams params_;
   DriveLimits limits_;
+  lattice_planner::FootprintCheck footprint_;  // the local costmap's own, reset to its present costs
   std::unique_ptr<timed_path_follower::TimedPathFollower> follower_;  // null: not initialized
   std::string plan_frame_;                                            // empty: no plan
   std::optional<Fix> last_fix_;

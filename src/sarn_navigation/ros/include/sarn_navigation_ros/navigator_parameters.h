@@ -15,7 +15,7 @@ namespace sarn_navigation {
 struct NavigatorNodeParams {
   std::string global_frame = "map";
   std::string robot_base_frame = "base_footprint";
-  std::string social = "timed";     // timed: people move; frozen: people stand where they are now; off: none
+  std::string social = "timed";     // timed: people move; frozen: people stand where they are now; off: they are obstacles
   std::string search = "lattice";   // lattice, or a baseline of OMPL: ompl_sst, ompl_rrt, ompl_kpiece
   double costmap_frequency = 10.0;  // [Hz]
   double visualization_frequency = 2.0;  // [Hz] simulated time; only while somebody listens
@@ -51,6 +51,9 @@ struct NavigatorConfig {
   timed_path_follower::FollowerParams follower;
   social_costmap::CostmapParams costmap;
 };
+
+/// With planner/footprint the costmap's inflation follows from it, whatever inscribed_radius says.
+void inflateByFootprint(NavigatorConfig& config);
 
 /// Throws sarn::ParameterError.
 [[nodiscard]] NavigatorConfig readNavigatorConfig(const ros::NodeHandle& private_nh);

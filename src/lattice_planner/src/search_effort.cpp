@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search_effort.h"
+
+#include <algorithm>
+
+namespace lattice_planner {
+namespace {
+
+constexpr double kHurry = 1.5;
+constexpr double kHurriedWeight = 5.0;
+
+}  // namespace
+
+void SearchEffort::begin(Clock::time_point deadline) {
+  deadline_ = deadline;
+  weight_ = params_.heuristic_weight;
+  expansions_ = generated_ = enough_expansions_ = 0;
+  hurry_at_ = static_cast<std::size_t>(params_.hurry_after);
+}
+
+bool SearchEffort::spent(std::size_t states) const {
+  if (params_.max_expansions > 0 && expansions_ >= static_cast<std::size_t>(params_.max_expansions))
+    return true;
+  if (states >= static_cast<std::size_t>(params_.max_states)) return true;
+  return (expansions_ & 15U) == 0 && !beforeDeadline();
+}
+
+void SearchEffort::planFound(bool first) {
+  if (first && params_.improvement_effort > 0.0) {
+    const double more =
+        params_.improvement_effort * static_cast<double>(expansions_) + params_.least_improvement;
+    enough_expansions_ = expansions_ + static_cast<std::size_t>(more);
+  }
+  weight_ = weight_ > 1.1 ? 1.0 + 0.5 * (weight_ - 1.0) : 1.0;
+}
+
+/// The guess errs here. Better a dearer plan soon than none; its bound tells.
+bool SearchEffort::hurries() {
+  if (hurry_at_ == 0 || expansions_ < hurry_at_) return false;
+  hurry_at_ *= 2;
+  weight_ = std::min(kHurriedWeight, weight_ * kHurry);
+  return true;
+}
+
+}  // namespace lattice_planner

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+#include "lattice_planner/planner_params.h"
+
+namespace lattice_planner {
+
+/// How long a search goes on, and how greedily: its limits of time, work and memory, and the weight of the
+/// guess, which falls to 1 with each better plan and rises while there is none.
+class SearchEffort {
+ public:
+  using Clock = std::chrono::steady_clock;
+  explicit SearchEffort(const PlannerParams& params) : params_(params) {}
+
+  void begin(Clock::time_point deadline);
+  void countExpansion() { ++expansions_; }
+  void countSuccessor() { ++generated_; }
+  [[nodiscard]] std::size_t expansions() const { return expansions_; }
+  [[nodiscard]] std::size_t generated() const { return generated_; }
+  [[nodiscard]] double weight() const { return weight_; }
+
+  [[nodiscard]] bool beforeDeadline() const { return Clock::now() < deadline_; }
+  /// True when a limit is reached with this many states in memory.
+  [[nodiscard]] bool spent(std::size_t states) const;
+  /// True when as much was done after the first plan as improving it is worth.
+  [[nodiscard]] bool improvedEnough() const {
+    return enough_expansions_ > 0 && expansions_ >= enough_expansions_;
+  }
+  /// A plan is in hand: the weight falls, so that the bound can be proved.
+  void planFound(bool first);
+  /// Without a plan after much work: true, with a larger weight, each time the work has doubled.
+  [[nodiscard]] bool hurries();
+
+ private:
+  const PlannerParams& params_;
+  Clock::time_point deadline_;
+  double weight_ = 1.0;
+  std::size_t expansions_ = 0;
+  std::size_t generated_ = 0;          // successors looked at
+  std::size_t enough_expansions_ = 0;  // 0: no limit
+  std::size_t hurry_at_ = 0;           // [expansions] 0: never
+};
+
+}  // namespace lattice_planner
