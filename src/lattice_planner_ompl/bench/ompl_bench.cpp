@@ -3,9 +3,6 @@
 // Prints one JSON object of figures ompl.PLANNER.{first_solution_ms,cost,success} and, with --log FILE, lets
 // OMPL's own Benchmark run all four on the first task and write its log.
 #include <ompl/control/SimpleSetup.h>
-#include <ompl/control/planners/kpiece/KPIECE1.h>
-#include <ompl/control/planners/rrt/RRT.h>
-#include <ompl/control/planners/sst/SST.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 
 #include <algorithm>
@@ -19,6 +16,7 @@
 #include "lattice_planner/lattice_planner.h"
 #include "lattice_planner/trajectory_cost.h"
 #include "lattice_planner_ompl/lattice_as_ompl.h"
+#include "lattice_planner_ompl/make_planner.h"
 #include "lattice_planner_ompl/ompl_planner.h"
 
 namespace {
@@ -128,8 +126,7 @@ void writeOmplLog(const Problem& problem, const Task& task, const std::string& f
   setup.setOptimizationObjective(std::make_shared<CostObjective>(si, problem));
   ompl::tools::Benchmark benchmark(setup, "sarn");
   benchmark.addPlanner(std::make_shared<LatticeAsOmpl>(si, problem));
-  benchmark.addPlanner(std::make_shared<oc::SST>(si));
-  benchmark.addPlanner(std::make_shared<oc::RRT>(si));
+  for (const char* name : {"sst", "rrt", "kpiece"}) benchmark.addPlanner(makePlanner(algorithmOf(name), si));
   ompl::tools::Benchmark::Request request;
   request.maxTime = kTimeLimit;
   request.runCount = 3;
@@ -141,7 +138,7 @@ void writeOmplLog(const Problem& problem, const Task& task, const std::string& f
 
 int run(int count, const std::string& log) {
   const World world;
-  const Problem problem{{}, world.view()};
+  const Problem problem = makeProblem({}, world.view());
   const std::vector<Task> tasks = makeTasks(world, count);
   if (!log.empty()) {
     writeOmplLog(problem, tasks.front(), log);

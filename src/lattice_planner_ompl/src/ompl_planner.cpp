@@ -3,11 +3,7 @@
 
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/ScopedState.h>
-#include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/control/PathControl.h>
-#include <ompl/control/planners/kpiece/KPIECE1.h>
-#include <ompl/control/planners/rrt/RRT.h>
-#include <ompl/control/planners/sst/SST.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
@@ -15,10 +11,10 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <stdexcept>
 #include <utility>
 
 #include "lattice_planner/trajectory_cost.h"
+#include "lattice_planner_ompl/make_planner.h"
 #include "lattice_planner_ompl/robot_space.h"
 
 namespace lattice_planner_ompl {
@@ -33,37 +29,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kLeastProgress = 0.1;  // [m] a partial plan must come this much closer to the goal
 
 double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-ob::PlannerPtr makePlanner(OmplAlgorithm algorithm, const oc::SpaceInformationPtr& si) {
-  switch (algorithm) {
-    case OmplAlgorithm::kSst: {
-      auto sst = std::make_shared<oc::SST>(si);
-      sst->setSelectionRadius(0.3);
-      sst->setPruningRadius(0.1);
-      return sst;
-    }
-    case OmplAlgorithm::kRrt: {
-      auto rrt = std::make_shared<oc::RRT>(si);
-      rrt->setIntermediateStates(true);
-      return rrt;
-    }
-    case OmplAlgorithm::kKpiece: {
-      class Floor : public ob::ProjectionEvaluator {
-       public:
-        explicit Floor(const ob::StateSpacePtr& space) : ob::ProjectionEvaluator(space) {}
-        [[nodiscard]] unsigned int getDimension() const override { return 2; }
-        void defaultCellSizes() override { cellSizes_ = {0.25, 0.25}; }
-        void project(const ob::State* state, Eigen::Ref<Eigen::VectorXd> projection) const override {
-          projection = pointOf(state).pose().position();
-        }
-      };
-      auto kpiece = std::make_shared<oc::KPIECE1>(si);
-      kpiece->setProjectionEvaluator(std::make_shared<Floor>(si->getStateSpace()));
-      return kpiece;
-    }
-  }
-  throw std::invalid_argument("no such algorithm");
-}
 
 /// The path's states at each step of propagation.
 sarn::TimedTrajectory trajectoryOf(oc::PathControl path) {
@@ -108,13 +73,6 @@ PlanStatus refuse(const lattice_planner::PlanRequest& request, const Problem& pr
 }
 
 }  // namespace
-
-OmplAlgorithm algorithmOf(const std::string& name) {
-  if (name == "sst") return OmplAlgorithm::kSst;
-  if (name == "rrt") return OmplAlgorithm::kRrt;
-  if (name == "kpiece") return OmplAlgorithm::kKpiece;
-  throw std::invalid_argument("OMPL planner '" + name + "': must be sst, rrt or kpiece");
-}
 
 OmplPlanner::OmplPlanner(OmplAlgorithm algorithm, const lattice_planner::PlannerParams& params,
                          std::uint32_t seed)

@@ -2,23 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "lattice_planner/plan_types.h"
 #include "lattice_planner/planner_params.h"
+#include "lattice_planner_ompl/ompl_algorithm.h"
 #include "sarn_common/timed_costmap_view.h"
 
 namespace lattice_planner_ompl {
-
-/// OMPL's planners for motions with dynamics, as baselines on the lattice planner's problem: its limits, its
-/// rule of what is forbidden, its cost.
-enum class OmplAlgorithm {
-  kSst,     // Li, Littlefield and Bekris, "Asymptotically optimal sampling-based kinodynamic planning", 2016
-  kRrt,     // LaValle and Kuffner, "Randomized kinodynamic planning", 2001
-  kKpiece,  // Sucan and Kavraki, "Kinodynamic motion planning by interior-exterior cell exploration", 2008
-};
-/// "sst", "rrt" or "kpiece"; throws std::invalid_argument otherwise.
-[[nodiscard]] OmplAlgorithm algorithmOf(const std::string& name);
 
 struct OmplOutcome {
   lattice_planner::PlanResult result;

@@ -15,9 +15,10 @@ namespace sarn_navigation {
 struct NavigatorNodeParams {
   std::string global_frame = "map";
   std::string robot_base_frame = "base_footprint";
-  std::string social = "timed";     // timed: people move; frozen: people stand where they are now; off: they are obstacles
-  std::string search = "lattice";   // lattice, or a baseline of OMPL: ompl_sst, ompl_rrt, ompl_kpiece
-  double costmap_frequency = 10.0;  // [Hz]
+  std::string social =
+      "timed";  // timed: people move; frozen: people stand where they are now; off: they are obstacles
+  std::string search = "lattice";        // lattice, or a baseline of OMPL: ompl_sst, ompl_rrt, ompl_kpiece
+  double costmap_frequency = 10.0;       // [Hz]
   double visualization_frequency = 2.0;  // [Hz] simulated time; only while somebody listens
   double pose_patience = 10.0;           // [s] a goal waits this long for the robot's pose and the map
   bool lockstep = false;                 // the simulation waits for plans that are due
