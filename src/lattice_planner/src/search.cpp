@@ -125,26 +125,33 @@ void Search::expand(StateId id) {
   const SearchState from = pool_[id];  // the pool may move while it grows
   const double c = std::cos(from.theta);
   const double s = std::sin(from.theta);
-  for (const MotionPrimitive& action : task_.actions(id, from)) tryAction(from, id, action, c, s);
+  // All successors first: what is known of their cells comes from memory while the others are made.
+  successors_.clear();
+  for (const MotionPrimitive& action : task_.actions(id, from)) {
+    effort_.countSuccessor();
+    // Octile distances may be shorter than the way.
+    const double least = from.g + static_cast<double>(action.base_cost);
+    if (!task_.params.charge_cells && least >= best_cost_) continue;
+    Successor successor{&action, {}, 0};
+    if (!motions_.advance(from, action, c, s, successor.state)) continue;
+    successor.state.parent = id;
+    successor.key = merge_key_.of(successor.state);
+    pool_.prefetch(successor.key);
+    successors_.push_back(successor);
+  }
+  for (const Successor& successor : successors_) tryAction(from, successor, c, s);
 }
 
-void Search::tryAction(const SearchState& from, StateId from_id, const MotionPrimitive& action, double c,
-                       double s) {
-  effort_.countSuccessor();
-  // Octile distances may be shorter than the way.
-  const double least = from.g + static_cast<double>(action.base_cost);
-  if (!task_.params.charge_cells && least >= best_cost_) return;
-  SearchState next;
-  if (!motions_.advance(from, action, c, s, next)) return;
-  next.parent = from_id;
+void Search::tryAction(const SearchState& from, const Successor& successor, double c, double s) {
+  SearchState next = successor.state;
   if (!from.escaping) {  // cheap rejection before the costly one
-    const StateId known = pool_.find(merge_key_.of(next));
+    const StateId known = pool_.find(successor.key);
     if (known != kNoState && pool_[known].g <= next.g) return;
   }
   float charged = 0.0F;
-  if (!motions_.traverse(from, action, c, s, charged, next.escaping)) return;
+  if (!motions_.traverse(from, *successor.action, c, s, charged, next.escaping)) return;
   next.g += static_cast<double>(charged);
-  const std::uint64_t key = merge_key_.of(next);
+  const std::uint64_t key = from.escaping ? merge_key_.of(next) : successor.key;
   const StateId known = pool_.find(key);
   if (known != kNoState && pool_[known].g <= next.g) return;
   cost_to_go_.judge(next);

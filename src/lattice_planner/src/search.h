@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "cost_to_go.h"
 #include "lattice_planner/open_list.h"
 #include "lattice_planner/plan_types.h"
@@ -32,7 +35,12 @@ class Search {
 
   [[nodiscard]] Outcome run();
   void expand(StateId id);
-  void tryAction(const SearchState& from, StateId from_id, const MotionPrimitive& action, double c, double s);
+  struct Successor {
+    const MotionPrimitive* action;
+    SearchState state;  // costs of cells not yet included
+    std::uint64_t key;
+  };
+  void tryAction(const SearchState& from, const Successor& successor, double c, double s);
   [[nodiscard]] float keyOf(const SearchState& state) const;
   void open(StateId id);
   void acceptGoal(StateId id);
@@ -51,6 +59,7 @@ class Search {
   OpenList open_;
   FrontierBound frontier_;
   PartialPlan partial_plan_;
+  std::vector<Successor> successors_;  // of the state being expanded
   StateId best_goal_ = kNoState;
   double best_cost_ = 0.0;
 };

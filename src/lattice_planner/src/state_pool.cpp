@@ -1,33 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lattice_planner/state_pool.h"
 
-#include <utility>
+#include <algorithm>
+#include <iterator>
 
 namespace lattice_planner {
-namespace {
-
-/// Finalizer of SplitMix64 (Steele, Lea and Flood 2014): spreads neighbouring keys over the table.
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31U);
-}
-
-}  // namespace
 
 void StatePool::reset() {
   states_.clear();
   used_ = 0;
+  mask_ = kFirstSlots - 1;
+  nextEpoch();
+}
+
+/// Slots of other epochs are free.
+void StatePool::nextEpoch() {
   if (++epoch_ != 0) return;
   for (Slot& slot : slots_) slot.epoch = 0;
   epoch_ = 1;
-}
-
-std::size_t StatePool::slotOf(std::uint64_t key) const {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = mix(key) & mask;
-  while (slots_[slot].epoch == epoch_ && slots_[slot].key != key) slot = (slot + 1) & mask;
-  return slot;
 }
 
 StateId StatePool::find(std::uint64_t key) const {
@@ -43,26 +33,26 @@ StateId StatePool::add(const SearchState& state) {
 StateId StatePool::put(std::uint64_t key, const SearchState& state) {
   const StateId id = add(state);
   Slot* slot = &slots_[slotOf(key)];
-  if (slot->epoch != epoch_) {
-    if (2 * ++used_ > slots_.size()) {
-      grow();
-      slot = &slots_[slotOf(key)];
-    }
+  if (slot->epoch != epoch_ && 2 * ++used_ > mask_) {
+    grow();
+    slot = &slots_[slotOf(key)];
   }
   *slot = {key, id, epoch_};
   return id;
 }
 
 void StatePool::grow() {
-  std::vector<Slot> old(2 * slots_.size());
-  std::swap(old, slots_);
-  for (const Slot& slot : old) {
-    if (slot.epoch == epoch_) slots_[slotOf(slot.key)] = slot;
-  }
+  moving_.clear();
+  std::copy_if(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(mask_ + 1),
+               std::back_inserter(moving_), [this](const Slot& slot) { return slot.epoch == epoch_; });
+  mask_ = 2 * mask_ + 1;
+  if (slots_.size() <= mask_) slots_.resize(mask_ + 1);
+  nextEpoch();
+  for (const Slot& slot : moving_) slots_[slotOf(slot.key)] = {slot.key, slot.id, epoch_};
 }
 
 std::size_t StatePool::memory() const {
-  return states_.capacity() * sizeof(SearchState) + slots_.capacity() * sizeof(Slot);
+  return states_.capacity() * sizeof(SearchState) + (slots_.capacity() + moving_.capacity()) * sizeof(Slot);
 }
 
 }  // namespace lattice_planner

@@ -38,6 +38,12 @@ PlanContinuation::PlanContinuation(const lattice_planner::PlannerParams& planner
       planner_(planner),
       footprint_(lattice_planner::parseFootprint(planner.footprint), planner.allow_unknown) {}
 
+void PlanContinuation::setWeights(const lattice_planner::PlannerParams& params) {
+  lattice_planner::PlannerParams wanted = params;
+  wanted.footprint = lattice_planner::toString(footprint_.footprint());
+  planner_.setParams(wanted);
+}
+
 /// The robot is where the last plan has it, and what it will do while the search runs is still free.
 bool PlanContinuation::isDriven(const ContinuationRequest& request, const sarn::TimedCostmapView& costs) {
   if (!last_ || request.now < last_->plan.result.trajectory.startTime() - params_.release_delay) return false;
@@ -64,8 +70,9 @@ bool PlanContinuation::keepsLast(const ContinuationRequest& request, const PlanR
   if (offered.status != PlanStatus::kComplete) return true;
   const double release = offered.trajectory.startTime();
   if (last_->plan.result.trajectory.endTime() <= release) return false;
+  const lattice_planner::PlannerParams params = planner_.params();
   const auto cost = [&](const sarn::TimedTrajectory& trajectory) {
-    return lattice_planner::trajectoryCost(planner_.params(), trajectory, costs, release);
+    return lattice_planner::trajectoryCost(params, trajectory, costs, release);
   };
   return cost(offered.trajectory) > params_.keep_plan_ratio * cost(last_->plan.result.trajectory);
 }

@@ -305,20 +305,25 @@ TEST_F(Plugins, layerInARollingCostmapStaysWithThePeople) {
   }
 }
 
+/// What rqt_reconfigure does.
+void tune(const std::string& server, const std::string& name, double value) {
+  dynamic_reconfigure::Reconfigure call;
+  dynamic_reconfigure::DoubleParameter parameter;
+  parameter.name = name;
+  parameter.value = value;
+  call.request.config.doubles.push_back(parameter);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  ASSERT_TRUE(sarn::callService(server + "/set_parameters", call)) << server;
+  spinner.stop();
+}
+
 TEST_F(Plugins, layerIsTunedLive) {
   addSocialLayer();
   tell({kStanding});
   costmap_->updateMap();
   ASSERT_EQ(costAt(5.4, 3.0), 254);
-  dynamic_reconfigure::Reconfigure call;
-  dynamic_reconfigure::DoubleParameter radius;
-  radius.name = "forbidden_radius";
-  radius.value = 0.2;
-  call.request.config.doubles.push_back(radius);
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  ASSERT_TRUE(sarn::callService("~/global_costmap/social_layer/set_parameters", call));
-  spinner.stop();
+  tune("~/global_costmap/social_layer", "forbidden_radius", 0.2);
   costmap_->updateMap();
   EXPECT_LT(costAt(5.4, 3.0), 253);
   EXPECT_EQ(costAt(5.1, 3.0), 254);
@@ -382,6 +387,29 @@ TEST_F(Plugins, plannerKnowsThatPeopleMove) {
   ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), plan));
   for (const auto& pose : plan) EXPECT_NEAR(pose.pose.position.y, 3.0, 0.2);
   EXPECT_GT(distanceToPlan(plan, leaves), 0.5);
+}
+
+TEST_F(Plugins, plannerWeightsAreTunedLive) {
+  const auto planner = makePlanner();
+  tell({kStanding});
+  const auto plannedDistance = [&](double x) {
+    Poses plan;
+    EXPECT_TRUE(planner->makePlan(stamped({x, 3.0, 0.0}), stamped({8.5, 3.0, 0.0}), plan));
+    return distanceToPlan(plan, kStanding);
+  };
+  tune("~/LatticePlanner", "social_weight", 0.0);
+  double x = 1.0;  // another start each time: nothing of the last plan is kept
+  const auto await = [&](const auto& condition) {
+    for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(20.0);
+         ros::WallTime::now() < end;) {
+      if (condition(plannedDistance(x = x > 2.4 ? 1.0 : x + 0.7))) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(await([](double distance) { return distance < 0.65; })) << "nobody minds";
+  tune("~/LatticePlanner", "social_weight", 200.0);
+  EXPECT_TRUE(await([](double distance) { return distance > 0.9; }));
+  tune("~/LatticePlanner", "social_weight", 8.0);
 }
 
 TEST_F(Plugins, plannerGoesRoundWalls) {

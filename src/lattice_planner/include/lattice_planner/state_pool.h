@@ -29,7 +29,8 @@ struct SearchState {
   [[nodiscard]] double f() const { return g + static_cast<double>(h); }
 };
 
-/// States of one search, found by merge key. Keeps its memory from search to search.
+/// States of one search, found by merge key. Keeps its memory from search to search, and uses no more of it
+/// than the search has grown to: what is looked at at random should stay in the processor's cache.
 class StatePool {
  public:
   /// Forgets all states.
@@ -37,6 +38,8 @@ class StatePool {
   [[nodiscard]] std::size_t size() const { return states_.size(); }
   [[nodiscard]] SearchState& operator[](StateId id) { return states_[id]; }
   [[nodiscard]] const SearchState& operator[](StateId id) const { return states_[id]; }
+  /// Has the memory brought that find(key) will read.
+  void prefetch(std::uint64_t key) const { __builtin_prefetch(&slots_[mix(key) & mask_]); }
   /// The cheapest record of a merge cell, or kNoState.
   [[nodiscard]] StateId find(std::uint64_t key) const;
   /// Adds a record and makes it the one that the key finds.
@@ -51,11 +54,25 @@ class StatePool {
     StateId id = kNoState;
     std::uint32_t epoch = 0;
   };
-  [[nodiscard]] std::size_t slotOf(std::uint64_t key) const;
+  static constexpr std::size_t kFirstSlots = std::size_t{1} << 13U;  // a power of two
+  /// Finalizer of SplitMix64 (Steele, Lea and Flood 2014): spreads neighbouring keys over the table.
+  [[nodiscard]] static std::uint64_t mix(std::uint64_t z) {
+    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+    return z ^ (z >> 31U);
+  }
+  [[nodiscard]] std::size_t slotOf(std::uint64_t key) const {
+    std::size_t slot = mix(key) & mask_;
+    while (slots_[slot].epoch == epoch_ && slots_[slot].key != key) slot = (slot + 1) & mask_;
+    return slot;
+  }
+  void nextEpoch();
   void grow();
 
   std::vector<SearchState> states_;
-  std::vector<Slot> slots_ = std::vector<Slot>(std::size_t{1} << 15U);
+  std::vector<Slot> slots_ = std::vector<Slot>(kFirstSlots);
+  std::vector<Slot> moving_;            // while the table grows
+  std::size_t mask_ = kFirstSlots - 1;  // slots in use, less one
   std::size_t used_ = 0;
   std::uint32_t epoch_ = 1;
 };

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "lattice_planner/footprint_check.h"
-#include "lattice_planner/lattice_planner.h"
 #include "sarn_common/parameters.h"
 #include "sarn_common/timed_costmap_view.h"
 #include "sarn_move_base/timed_plan.h"
+#include "sarn_navigation/live_planner.h"
 
 namespace sarn_move_base {
 
@@ -63,7 +63,12 @@ class PlanContinuation {
   [[nodiscard]] ContinuedPlan plan(const ContinuationRequest& request, const sarn::TimedCostmapView& costs);
   /// Forgets the last plan.
   void reset() { last_ = {}; }
-  [[nodiscard]] const lattice_planner::PlannerParams& planner() const { return planner_.params(); }
+  /// Any thread. Plans follow these within some tenths of a second; the footprint stays as it was. Throws
+  /// std::invalid_argument that names every problem.
+  void setWeights(const lattice_planner::PlannerParams& params);
+  [[nodiscard]] lattice_planner::PlannerParams planner() const { return planner_.params(); }
+  /// Blocks until the next plan will follow the weights set last.
+  void waitUntilReady() { planner_.waitUntilReady(); }
 
  private:
   struct Last {
@@ -78,7 +83,7 @@ class PlanContinuation {
                                      const sarn::TimedCostmapView& costs);
 
   ContinuationParams params_;
-  lattice_planner::LatticePlanner planner_;
+  sarn_navigation::LivePlanner planner_;
   lattice_planner::FootprintCheck footprint_;  // reset to the present costs
   std::optional<Last> last_;
 };

@@ -8,6 +8,7 @@
 
 #include <stdexcept>
 
+#include "lattice_planner_ros/parameters.h"
 #include "sarn_common_ros/conversions.h"
 #include "sarn_common_ros/parameter_reader.h"
 #include "sarn_move_base_ros/costmap_conversions.h"
@@ -56,7 +57,21 @@ void LatticePlanner::initialize(std::string name, costmap_2d::Costmap2DROS* cost
   }
   source_->subscribe();
   path_ = nh.advertise<nav_msgs::Path>("plan", 1, true);
+  reconfigure_ =
+      std::make_unique<dynamic_reconfigure::Server<lattice_planner::PlannerConfig>>(reconfigure_mutex_, nh);
+  reconfigure_->updateConfig(lattice_planner::toConfig(planner_->planner()));
+  reconfigure_->setCallback([this](lattice_planner::PlannerConfig& live, std::uint32_t) { tune(live); });
   warnOfSocialLayer();
+}
+
+/// Weights that have a problem change nothing; `config` becomes what holds.
+void LatticePlanner::tune(lattice_planner::PlannerConfig& config) {
+  try {
+    planner_->setWeights(lattice_planner::fromConfig(config, planner_->planner()));
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN("%s: %s: nothing is changed", name_.c_str(), error.what());
+  }
+  config = lattice_planner::toConfig(planner_->planner());
 }
 
 void LatticePlanner::warnOfSocialLayer() const {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <costmap_2d/costmap_2d_ros.h>
+#include <dynamic_reconfigure/server.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <lattice_planner/PlannerConfig.h>
 #include <nav_core/base_global_planner.h>
 #include <ros/ros.h>
 #include <tf2_ros/buffer.h>
@@ -73,6 +75,7 @@ class LatticePlanner : public nav_core::BaseGlobalPlanner
   [[nodiscard]] sarn::TimedCostmapView observe(double now);
   void warnOfSocialLayer() const;
   void publish(const Poses& plan) const;
+  void tune(lattice_planner::PlannerConfig& config);
 
   std::mutex mutex_;  // one plan at a time: move_base's service make_plan has a thread of its own
   std::string name_;
@@ -85,6 +88,8 @@ class LatticePlanner : public nav_core::BaseGlobalPlanner
   std::optional<tf2_ros::TransformListener> tf_listener_;
   std::unique_ptr<PeopleSource> source_;
   ros::Publisher path_;
+  boost::recursive_mutex reconfigure_mutex_;
+  std::unique_ptr<dynamic_reconfigure::Server<lattice_planner::PlannerConfig>> reconfigure_;
 };
 
 }  // namespace sarn_move_base
