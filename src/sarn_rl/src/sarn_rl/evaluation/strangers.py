@@ -20,6 +20,8 @@ RECORDED_CASES = 150
 class Strangers:
     """Crowds that are there: JuPedSim's if it is installed, recordings if their directory exists.
 
+    Their ways are made when they are first asked for.
+
     Args:
         world: the benchmark's, holonomic or unicycle robot of its size and speed.
         reward: what is measured.
@@ -31,16 +33,15 @@ class Strangers:
         self, world: EnvironmentParams, reward: RewardParams, recordings: Optional[Path], count: int = 500
     ) -> None:
         self._world, self._reward = world, reward
+        self._recordings, self._count = recordings, count
+        self._made: Optional[List[Tuple[str, List[Walk]]]] = None
         self.skipped: List[str] = []
-        self._crowds: List[Tuple[str, List[Walk]]] = []
-        self._add_jupedsim(count)
-        self._add_recordings(recordings, min(count, RECORDED_CASES))
 
     def rows(self, policy: Policy, discount: float) -> List[Dict[str, Any]]:
         """A row a crowd: its name, and what came of the cases."""
         found = []
         cases = self._world.cases
-        for name, walks in self._crowds:
+        for name, walks in self._crowds():
             worlds = ReplayedWorlds(
                 walks,
                 policy.kinematics,
@@ -54,24 +55,35 @@ class Strangers:
             found.append({"people_model": name, **run_worlds(policy, worlds, discount).summary()})
         return found
 
-    def _add_jupedsim(self, count: int) -> None:
+    def _crowds(self) -> List[Tuple[str, List[Walk]]]:
+        if self._made is None:
+            self._made = [*self._of_jupedsim(), *self._recorded()]
+        return self._made
+
+    def _of_jupedsim(self) -> List[Tuple[str, List[Walk]]]:
         if not jupedsim_crowd.is_available():
             self.skipped.append(
                 "JuPedSim's people: skipped, jupedsim is not installed (requirements/strangers.txt)"
             )
-            return
+            return []
         world = self._world
-        for model in jupedsim_crowd.MODELS:
-            walks = jupedsim_crowd.walks(
-                world.cases, model, "test", range(count), world.time_step, world.time_limit
+        numbers = range(self._count)
+        return [
+            (
+                f"jupedsim_{model}",
+                jupedsim_crowd.walks(world.cases, model, "test", numbers, world.time_step, world.time_limit),
             )
-            self._crowds.append((f"jupedsim_{model}", walks))
+            for model in jupedsim_crowd.MODELS
+        ]
 
-    def _add_recordings(self, directory: Optional[Path], count: int) -> None:
+    def _recorded(self) -> List[Tuple[str, List[Walk]]]:
+        directory, count = self._recordings, min(self._count, RECORDED_CASES)
         files = sorted(directory.glob("*.txt")) if directory is not None else []
         if not files:
             self.skipped.append(f"recorded people: skipped, there is no *.txt in {directory}")
+        crowds = []
         for path in files:
             ways = recorded.read_ways(path, self._world.time_step)
             walks = recorded.walks(ways, count, self._world.time_step, self._world.time_limit)
-            self._crowds.append((f"recorded_{path.stem}", walks))
+            crowds.append((f"recorded_{path.stem}", walks))
+        return crowds
