@@ -148,7 +148,8 @@ class LearningParams:
         warmup_episodes: episodes before the first gradient step.
         people: how many, of one training case after the other; none: as in the environment.
         rehearsal: demonstrations or lessons in a batch, in parts of batch_size, at the first episode; falls
-            linearly to none at the last. They say what states are worth that the policy does not meet.
+            linearly to none at rehearsal_episodes. They say what states are worth that the policy does not meet.
+        rehearsal_episodes: see above.
     """
 
     episodes: int = 4000
@@ -170,6 +171,7 @@ class LearningParams:
     warmup_episodes: int = 0
     people: Tuple[int, ...] = ()
     rehearsal: float = 0.0
+    rehearsal_episodes: int = 400
 
     def problems(self) -> Tuple[str, ...]:
         names = (
@@ -178,6 +180,7 @@ class LearningParams:
             "learning_rate",
             "final_learning_rate",
             "epsilon_episodes",
+            "rehearsal_episodes",
             "return_steps",
             "target_rate",
             "gradient_clip",

@@ -158,7 +158,8 @@ class Trainer:
             cosine(learning.learning_rate, learning.final_learning_rate, progress)
         )
         beta = replay.beta_start + (1.0 - replay.beta_start) * min(1.0, progress)
-        count = round(learning.rehearsal * max(0.0, 1.0 - progress) * learning.batch_size)
+        fading = max(0.0, 1.0 - self._episodes / learning.rehearsal_episodes)
+        count = round(learning.rehearsal * fading * learning.batch_size)
         for _ in range(learning.updates_per_step):
             rehearsed = rehearse(demonstrations, count, learning.mirror, self._random)
             self._loss = self._learner.update(memory, beta, self._random, rehearsed)
