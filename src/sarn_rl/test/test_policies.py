@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 import torch
@@ -15,7 +17,7 @@ from sarn_rl.joint_state import JointState, single_state
 from sarn_rl.networks.factory import make_network
 from sarn_rl.networks.params import NetworkParams
 from sarn_rl.policies.crowd_models import OrcaPolicy, SocialForcePolicy
-from sarn_rl.policies.value_policy import CHUNK, ValuePolicy
+from sarn_rl.policies.value_policy import CHUNK, SECOND_LOOK, ValuePolicy
 from sarn_rl.reward import RewardParams
 
 
@@ -69,7 +71,8 @@ def test_mirrored_world_offers_the_mirrored_rewards(crowd: JointState) -> None:
 def test_with_the_mirror_mean_the_mirrored_world_gives_the_mirrored_action(
     crowd: JointState, kinematics: Kinematics
 ) -> None:
-    here = policy(kinematics, mirror_mean=True)
+    looked = policy(kinematics, mirror_mean=True)
+    here = ValuePolicy(looked._network, looked._lookahead, second_look=sys.maxsize)
     actions, values = here.action_values(crowd)
     other_actions, other_values = here.action_values(mirrored_world(crowd))
     for world in range(len(crowd)):
@@ -142,3 +145,16 @@ def test_state_that_is_not_finite_is_refused(crowd: JointState, part: str) -> No
     getattr(crowd, part)[0, 0] = np.nan
     with pytest.raises(ValueError, match="state: not finite"):
         policy().act(crowd)
+
+
+def test_second_look_is_the_mean_for_the_best_and_never_better_for_others(crowd: JointState) -> None:
+    looked = policy(mirror_mean=True)
+    everything = ValuePolicy(looked._network, looked._lookahead, 81).action_values(crowd)[1]
+    first = ValuePolicy(looked._network.inner, looked._lookahead).action_values(crowd)[1]
+    values = looked.action_values(crowd)[1]
+    for world in range(len(crowd)):
+        best = np.argsort(-first[world])[:SECOND_LOOK]
+        others = np.setdiff1d(np.arange(81), best)
+        assert values[world, best] == pytest.approx(everything[world, best], abs=1e-6)
+        assert values[world, others].max() <= values[world, best].min()
+        assert values[world].argmax() == best[everything[world, best].argmax()]

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import sys
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -66,8 +67,10 @@ def golden_states(contract: Contract) -> JointState:
     return JointState(robots, people * present[..., None], present)
 
 
-def golden_values(policy: ValuePolicy, contract: Contract) -> np.ndarray:
-    """(worlds, actions): values of all actions in the golden states."""
+def golden_values(checkpoint: Checkpoint) -> np.ndarray:
+    """(worlds, actions): values of all actions in the golden states, all looked at alike."""
+    contract = checkpoint.contract
+    policy = ValuePolicy(packed(checkpoint.network), contract.make_lookahead(), sys.maxsize)
     return policy.action_values(golden_states(contract))[1]
 
 
@@ -75,7 +78,7 @@ def save_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
     """Writes a checkpoint; a reader sees the old file or the whole new one."""
     was_training = checkpoint.network.training
     checkpoint.network.eval()
-    values = golden_values(checkpoint.policy(), checkpoint.contract)
+    values = golden_values(checkpoint)
     checkpoint.network.train(was_training)
     document = {
         "format": FORMAT,
@@ -154,7 +157,7 @@ def _prove(path: Path, checkpoint: Checkpoint, golden: torch.Tensor) -> None:
     # Not seen in the values: a ReLU may take NaN for 0.
     if not all(bool(torch.isfinite(weight).all()) for weight in checkpoint.network.state_dict().values()):
         raise CheckpointError(f"{path}: weights are not finite")
-    values = golden_values(checkpoint.policy(), checkpoint.contract)
+    values = golden_values(checkpoint)
     expected = golden.numpy()
     if not np.isfinite(values).all():
         raise CheckpointError(f"{path}: weights give values that are not finite")

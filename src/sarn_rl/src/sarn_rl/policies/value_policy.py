@@ -11,18 +11,28 @@ import torch
 from sarn_rl.joint_state import JointState
 from sarn_rl.lookahead import Lookahead, Prospect
 from sarn_rl.networks.base import ValueNetwork
-from sarn_rl.observation import Observation
+from sarn_rl.networks.mirror_mean import MirrorMean
+from sarn_rl.observation import Observation, mirrored
 from sarn_rl.policies.base import Policy
 
 # Worlds whose look-ahead goes through the network together: larger batches fall out of the cache.
 CHUNK = 8
+# Actions whose mirror image is looked at too, where values are means over both: the best by the first look.
+SECOND_LOOK = 27
 
 
 class ValuePolicy(Policy):
-    """argmax over actions of R(s, a) + gamma^(dt v_pref) V(s') (Chen et al. 2019, algorithm 1)."""
+    """argmax over actions of R(s, a) + gamma^(dt v_pref) V(s') (Chen et al. 2019, algorithm 1).
 
-    def __init__(self, network: ValueNetwork, lookahead: Lookahead) -> None:
-        self._network = network
+    Args:
+        network: V.
+        lookahead: R and s'.
+        second_look: for how many actions the mirror image counts, if V is a mean over both. The others, which
+            were worse at the first look, are worth no more than the worst of these.
+    """
+
+    def __init__(self, network: ValueNetwork, lookahead: Lookahead, second_look: int = SECOND_LOOK) -> None:
+        self._network, self._second_look = network, second_look
         self._lookahead = lookahead
         self.kinematics = lookahead.kinematics
 
@@ -46,9 +56,28 @@ class ValuePolicy(Policy):
         return np.concatenate(actions), np.concatenate(values)
 
     def _values(self, prospect: Prospect) -> np.ndarray:
-        shape = prospect.rewards.shape
-        later = network_values(self._network, prospect.observation).reshape(shape)
-        return prospect.rewards + np.where(prospect.over, 0.0, prospect.discount * later)
+        network = self._network
+        looked_twice = self._second_look < prospect.rewards.shape[1]
+        if not (isinstance(network, MirrorMean) and looked_twice):
+            return _worth(prospect, network_values(network, prospect.observation))
+        first = network_values(network.inner, prospect.observation).reshape(prospect.rewards.shape)
+        worth = _worth(prospect, first)
+        best = np.argpartition(-worth, self._second_look - 1, axis=1)[:, : self._second_look]
+        rows = np.arange(len(best))[:, None]
+        image = mirrored(Observation(*(array[rows, best] for array in prospect.observation)))
+        second = network_values(network.inner, image).reshape(best.shape)
+        mean = np.array(first)
+        mean[rows, best] = 0.5 * (first[rows, best] + second)
+        both = _worth(prospect, mean)
+        result = np.minimum(worth, both[rows, best].min(axis=1, keepdims=True))
+        result[rows, best] = both[rows, best]
+        return result
+
+
+def _worth(prospect: Prospect, later: np.ndarray) -> np.ndarray:
+    """(N, A): rewards and what is worth later."""
+    later = later.reshape(prospect.rewards.shape)
+    return prospect.rewards + np.where(prospect.over, 0.0, prospect.discount * later)
 
 
 def network_values(network: ValueNetwork, observation: Observation) -> np.ndarray:

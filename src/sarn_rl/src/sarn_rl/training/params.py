@@ -148,7 +148,7 @@ class LearningParams:
         warmup_episodes: episodes before the first gradient step.
         people: how many, of one training case after the other; none: as in the environment.
         rehearsal: demonstrations or lessons in a batch, in parts of batch_size, at the first episode; falls
-            linearly to none at rehearsal_episodes. They say what states are worth that the policy does not meet.
+            linearly to none at rehearsal_episodes. They say what states are worth that are not met.
         rehearsal_episodes: see above.
     """
 
