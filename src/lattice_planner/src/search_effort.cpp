@@ -6,6 +6,7 @@
 namespace lattice_planner {
 namespace {
 
+constexpr double kFall = 0.75;  // of what the weight is above 1, with each better plan
 constexpr double kHurry = 1.5;
 constexpr double kHurriedWeight = 5.0;
 
@@ -31,7 +32,7 @@ void SearchEffort::planFound(bool first) {
         params_.improvement_effort * static_cast<double>(expansions_) + params_.least_improvement;
     enough_expansions_ = expansions_ + static_cast<std::size_t>(more);
   }
-  weight_ = weight_ > 1.1 ? 1.0 + 0.5 * (weight_ - 1.0) : 1.0;
+  weight_ = weight_ > 1.02 ? 1.0 + kFall * (weight_ - 1.0) : 1.0;
 }
 
 /// The guess errs here. Better a dearer plan soon than none; its bound tells.

@@ -6,6 +6,8 @@
 namespace lattice_planner {
 namespace {
 
+constexpr double kLargestCell = 0.1;  // [m] that guides the search well
+
 bool finite(const sarn::TrajectoryPoint& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.theta) && std::isfinite(p.v) &&
          std::isfinite(p.omega) && std::isfinite(p.t);
@@ -47,7 +49,8 @@ void SearchTask::reset(const PlanRequest& wanted, const sarn::TimedCostmapView& 
   request = wanted;
   request.start.theta = sarn::wrapAngle(wanted.start.theta);
   request.goal.theta = sarn::wrapAngle(wanted.goal.theta);
-  costmap = costs;
+  // The ancestor charges cells: there, finer ones would be another cost.
+  costmap = params.charge_cells ? costs : fine_costmap_.of(costs, kLargestCell);
   goal_from_map = sarn::inverse(request.goal);
   start_actions = lattice.fromAny({wanted.start.v, wanted.start.omega});
   time.reset(params, lattice, wanted.start.t, costmap);

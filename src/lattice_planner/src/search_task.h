@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cell_costs.h"
+#include "fine_costmap.h"
 #include "lattice_planner/motion_lattice.h"
 #include "lattice_planner/plan_types.h"
 #include "lattice_planner/planner_params.h"
@@ -52,10 +53,13 @@ class SearchTask {
   const CellCosts cell_costs;
   // Of the present request.
   PlanRequest request;             // headings in (-pi, pi]
-  sarn::TimedCostmapView costmap;  // with one layer more, see TimeAxis
+  sarn::TimedCostmapView costmap;  // with one layer more, see TimeAxis; cells cut, see FineCostmap
   TimeAxis time;
   sarn::Pose2D goal_from_map;
   std::vector<MotionPrimitive> start_actions;
+
+ private:
+  FineCostmap fine_costmap_;
 };
 
 }  // namespace lattice_planner

@@ -2,6 +2,7 @@
 // What the planner does in worlds drawn by hand.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 #include "lattice_planner/commit.h"
@@ -272,6 +273,33 @@ TEST(LatticePlanner, startsFromSpeedsOffTheLattice) {
   ASSERT_EQ(result.status, PlanStatus::kComplete);
   EXPECT_DOUBLE_EQ(result.trajectory.points.front().v, 0.33);
   EXPECT_TRUE(faults(result.trajectory, task, planner().params(), world).empty());
+}
+
+// Cells as large as the robot must not lead the search astray: a few steps aside took it 20 times the work.
+TEST(LatticePlanner, coarseCellsGuideAsWellAsFineOnes) {
+  const auto work = [](double resolution) {
+    World world = World::room(6.0, 4.0, resolution);
+    std::array<std::size_t, 2> expansions{};  // alone, among people
+    for (const double yaw : {-1.57, 0.0, 1.57, 3.1}) {
+      const PlanResult aside = planner().plan(request({3.0, 2.0, 0.0}, {2.7, 2.9, yaw}), world.view());
+      EXPECT_EQ(aside.status, PlanStatus::kComplete) << resolution;
+      expansions[0] += aside.expansions;
+    }
+    world.addLayers(20, 0.5);
+    world.walk(3.0, 4.0, 0.0, -0.5);
+    const PlanRequest task = request({0.8, 2.0, 0.0}, {5.2, 2.6, 0.0});
+    const PlanResult among_people = planner().plan(task, world.view());
+    EXPECT_EQ(among_people.status, PlanStatus::kComplete) << resolution;
+    EXPECT_TRUE(faults(among_people.trajectory, task, planner().params(), world).empty()) << resolution;
+    expansions[1] = among_people.expansions;
+    return expansions;
+  };
+  const auto fine = work(0.1);
+  for (const double resolution : {0.25, 0.4}) {
+    const auto coarse = work(resolution);
+    EXPECT_LT(coarse[0], 2 * fine[0]) << resolution;
+    EXPECT_LT(coarse[1], 4 * fine[1]) << resolution << " m, among people: the cells' corners lie elsewhere";
+  }
 }
 
 TEST(People, areWaitedForWhereThereIsNoWayAround) {
