@@ -4,6 +4,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "lattice_planner/footprint.h"
 #include "sarn_common_ros/parameter_reader.h"
@@ -33,6 +34,13 @@ NavigatorConfig readNavigatorConfig(const ros::NodeHandle& private_nh) {
       sarn::readParameters<timed_path_follower::FollowerParams>(ros::NodeHandle(private_nh, "follower"));
   config.costmap = social_costmap_ros::readCostmapParams(ros::NodeHandle(private_nh, "costmap"));
   inflateByFootprint(config);
+  if (config.follower.min_vel_x > config.planner.min_vel_x) {
+    std::ostringstream text;
+    text << private_nh.getNamespace() << ": planner/min_vel_x: " << config.planner.min_vel_x
+         << " plans backwards, what the follower must not drive; follower/min_vel_x: "
+         << config.follower.min_vel_x << " must not be larger";
+    throw sarn::ParameterError(text.str());
+  }
   return config;
 }
 
