@@ -12,8 +12,10 @@ from typing import Dict, List
 
 import numpy as np
 import pytest
+import yaml
 
 URDF = Path(__file__).resolve().parents[1] / "urdf" / "turtlebot2.urdf"
+LIDAR_FILE = Path(__file__).resolve().parents[2] / "src" / "kobuki_sim" / "config" / "lidar.yaml"
 CYLINDER = "collision/geometry/cylinder"
 ROBOT = ElementTree.parse(URDF).getroot()
 
@@ -101,6 +103,14 @@ def test_base_link_is_above_base_footprint() -> None:
 def test_frame_is_where_the_robot_has_it(frame: str) -> None:
     xyz, rpy = EXPECTED_IN_BASE_LINK[frame]
     assert pose_in("base_link", frame) == pytest.approx(transform(list(xyz), list(rpy)), abs=1e-9)
+
+
+def test_lidar_stands_where_the_simulated_one_measures() -> None:
+    lidar = yaml.safe_load(LIDAR_FILE.read_text(encoding="utf-8"))
+    mount = [lidar[key] for key in ("mount_x", "mount_y", "mount_z")]
+    assert pose_in("base_footprint", "base_laser_link") == pytest.approx(
+        transform(mount, [0.0, 0.0, lidar["mount_yaw"]]), abs=1e-9
+    )
 
 
 def test_depth_camera_is_at_shin_height() -> None:

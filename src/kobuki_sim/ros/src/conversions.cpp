@@ -254,4 +254,18 @@ sensor_msgs::CameraInfo toCameraInfo(const DepthCameraParams& camera, const ros:
   return message;
 }
 
+sensor_msgs::LaserScan toLaserScan(const LidarScan& scan, double period, const ros::Time& stamp) {
+  sensor_msgs::LaserScan message;
+  message.header = header(kLidarFrame, stamp);
+  message.angle_min = static_cast<float>(scan.angle_min);
+  message.angle_increment = static_cast<float>(scan.angle_increment);
+  message.angle_max = static_cast<float>(
+      scan.angle_min + scan.angle_increment * (static_cast<double>(scan.ranges.size()) - 1.0));
+  message.scan_time = static_cast<float>(period);
+  message.range_min = static_cast<float>(scan.range_min);
+  message.range_max = static_cast<float>(scan.range_max);
+  message.ranges = scan.ranges;
+  return message;
+}
+
 }  // namespace kobuki_sim

@@ -27,7 +27,7 @@ KobukiSimNode::KobukiSimNode(ros::NodeHandle& nh, const Parameters& params, cons
     : params_(params.node),
       queue_(*ros::getGlobalCallbackQueue()),
       simulation_(nh, params, scenario, seed),
-      gate_(params.lockstep, params.node.lockstep_slack, params.node.lockstep_timeout),
+      gate_(params.lockstep, params.node.lockstep_timeout),
       pacer_(params.node.rate > 0.0 ? params.node.rate : 1.0),
       paused_(params.node.start_paused),
       reset_(nh.advertiseService(kResetService, &KobukiSimNode::onReset, this)),
@@ -36,7 +36,7 @@ KobukiSimNode::KobukiSimNode(ros::NodeHandle& nh, const Parameters& params, cons
       inject_(nh.advertiseService(kInjectService, &KobukiSimNode::onInject, this)) {
   for (std::size_t i = 0; i < params.lockstep.size(); ++i) {
     lockstep_.push_back(nh.subscribe<std_msgs::Time>(
-        kLockstepPrefix + params.lockstep[i], kLockstepQueue,
+        kLockstepPrefix + params.lockstep[i].name, kLockstepQueue,
         [this, i](const std_msgs::TimeConstPtr& message) { acknowledge(i, message->data); },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   }

@@ -6,9 +6,11 @@
 
 namespace kobuki_sim {
 
-LockstepGate::LockstepGate(const std::vector<std::string>& names, double slack, double timeout)
-    : slack_(static_cast<std::int64_t>(slack * 1e9)), timeout_(timeout) {
-  for (const auto& name : names) participants_.push_back({name});
+LockstepGate::LockstepGate(const std::vector<LockstepParticipant>& participants, double timeout)
+    : timeout_(timeout) {
+  for (const auto& [name, slack] : participants) {
+    participants_.push_back({name, static_cast<std::int64_t>(slack * 1e9)});
+  }
 }
 
 void LockstepGate::acknowledge(std::size_t index, std::int64_t stamp, std::int64_t now) {
@@ -21,7 +23,7 @@ void LockstepGate::acknowledge(std::size_t index, std::int64_t stamp, std::int64
 bool LockstepGate::mayReach(std::int64_t time, double wall) {
   bool open = true;
   for (auto& participant : participants_) {
-    if (participant.given_up || time <= participant.acknowledged + slack_) continue;
+    if (participant.given_up || time <= participant.acknowledged + participant.slack) continue;
     if (participant.blocking_since < 0.0) participant.blocking_since = wall;
     if (wall - participant.blocking_since > timeout_) {
       participant.given_up = true;

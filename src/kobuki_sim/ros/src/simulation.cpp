@@ -24,6 +24,7 @@ Simulation::Simulation(ros::NodeHandle& nh, const Parameters& params, const Scen
       commands_(nh, world_),
       base_publisher_(nh, params.node, world_.timeStep()),
       camera_publisher_(nh, params, seed),
+      lidar_publisher_(nh, params, seed),
       truth_publisher_(nh, params.node) {
   world_.base().odometry().useGyroHeading(params_.node.use_imu_heading);
 }
@@ -49,6 +50,7 @@ void Simulation::step() {
   truth_publisher_.publishPeopleAndContacts(world_, stamp);
   base_publisher_.publishDiagnostics(world_.base(), stamp);
   camera_publisher_.publish(world_, stamp);
+  lidar_publisher_.publish(world_, stamp);
   commands_.warnOfTimeout();
 }
 
@@ -57,6 +59,7 @@ void Simulation::reset(std::uint64_t seed) {
   world_.base().odometry().useGyroHeading(params_.node.use_imu_heading);
   base_publisher_.restart();
   camera_publisher_.restart(seed);
+  lidar_publisher_.restart(seed);
 }
 
 std::string Simulation::inject(const std::string& event, bool active) {

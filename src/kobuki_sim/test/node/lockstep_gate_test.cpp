@@ -9,12 +9,12 @@ namespace {
 constexpr std::int64_t kMillisecond = 1000000;
 
 TEST(LockstepGate, isOpenWithoutParticipants) {
-  LockstepGate gate({}, 0.1, 1.0);
+  LockstepGate gate({}, 1.0);
   EXPECT_TRUE(gate.mayReach(1000000 * kMillisecond, 0.0));
 }
 
 TEST(LockstepGate, staysWithinSlackOfTheSlowest) {
-  LockstepGate gate({"a", "b"}, 0.1, 1.0);
+  LockstepGate gate({{"a", 0.1}, {"b", 0.1}}, 1.0);
   EXPECT_TRUE(gate.mayReach(100 * kMillisecond, 0.0));
   EXPECT_FALSE(gate.mayReach(101 * kMillisecond, 0.0));
   gate.acknowledge(0, 50 * kMillisecond, 100 * kMillisecond);
@@ -24,8 +24,17 @@ TEST(LockstepGate, staysWithinSlackOfTheSlowest) {
   EXPECT_FALSE(gate.mayReach(121 * kMillisecond, 0.0));
 }
 
+TEST(LockstepGate, givesEachItsOwnSlack) {
+  LockstepGate gate({{"often", 0.06}, {"seldom", 0.16}}, 1.0);
+  gate.acknowledge(0, 100 * kMillisecond, 160 * kMillisecond);
+  EXPECT_TRUE(gate.mayReach(160 * kMillisecond, 0.0));
+  EXPECT_FALSE(gate.mayReach(161 * kMillisecond, 0.0)) << "held up by the one that hears often";
+  gate.acknowledge(0, 160 * kMillisecond, 160 * kMillisecond);
+  EXPECT_FALSE(gate.mayReach(161 * kMillisecond, 0.0)) << "held up by the one that hears seldom";
+}
+
 TEST(LockstepGate, givesUpWhoHoldsItUpTooLongAndSaysSoOnce) {
-  LockstepGate gate({"a", "b"}, 0.1, 1.0);
+  LockstepGate gate({{"a", 0.1}, {"b", 0.1}}, 1.0);
   gate.acknowledge(0, 500 * kMillisecond, 500 * kMillisecond);
   EXPECT_FALSE(gate.mayReach(510 * kMillisecond, 10.0));
   EXPECT_FALSE(gate.mayReach(510 * kMillisecond, 11.0));
@@ -36,7 +45,7 @@ TEST(LockstepGate, givesUpWhoHoldsItUpTooLongAndSaysSoOnce) {
 }
 
 TEST(LockstepGate, takesBackWhoAcknowledgesAgain) {
-  LockstepGate gate({"a"}, 0.1, 1.0);
+  LockstepGate gate({{"a", 0.1}}, 1.0);
   EXPECT_FALSE(gate.mayReach(200 * kMillisecond, 0.0));
   EXPECT_TRUE(gate.mayReach(200 * kMillisecond, 2.0));
   gate.acknowledge(0, 200 * kMillisecond, 200 * kMillisecond);
@@ -45,7 +54,7 @@ TEST(LockstepGate, takesBackWhoAcknowledgesAgain) {
 }
 
 TEST(LockstepGate, countsTheTimeoutOnlyWhileItIsHeldUp) {
-  LockstepGate gate({"a"}, 0.1, 1.0);
+  LockstepGate gate({{"a", 0.1}}, 1.0);
   EXPECT_FALSE(gate.mayReach(200 * kMillisecond, 0.0));
   gate.acknowledge(0, 100 * kMillisecond, 200 * kMillisecond);
   EXPECT_FALSE(gate.mayReach(300 * kMillisecond, 5.0)) << "held up since 5.0 only";
@@ -53,7 +62,7 @@ TEST(LockstepGate, countsTheTimeoutOnlyWhileItIsHeldUp) {
 }
 
 TEST(LockstepGate, takesAStampFromTheFutureForNow) {
-  LockstepGate gate({"a"}, 0.1, 1.0);
+  LockstepGate gate({{"a", 0.1}}, 1.0);
   gate.acknowledge(0, 1'000'000'000'000'000'000, 50 * kMillisecond);
   EXPECT_TRUE(gate.mayReach(150 * kMillisecond, 0.0));
   EXPECT_FALSE(gate.mayReach(151 * kMillisecond, 0.0));

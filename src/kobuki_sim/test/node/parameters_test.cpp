@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include "sarn_common_ros/parameter_reader.h"
+
 namespace kobuki_sim {
 namespace {
 
@@ -16,6 +18,16 @@ TEST(NodeParams, theShippedYamlNamesEveryFieldButTheScenario) {
   EXPECT_EQ(sarn::setFromYaml(node, params), std::vector<std::string>{});
   for (const auto& name : sarn::fieldNames<NodeParams>()) {
     EXPECT_TRUE(name == "scenario" || node[name]) << name;
+  }
+}
+
+TEST(LockstepParticipants, areNamesOrNamesWithTheirSlack) {
+  EXPECT_EQ(parseParticipant("navigator", 0.06).name, "navigator");
+  EXPECT_EQ(parseParticipant("navigator", 0.06).slack, 0.06);
+  EXPECT_EQ(parseParticipant("people_tracker@0.16", 0.06).name, "people_tracker");
+  EXPECT_EQ(parseParticipant("people_tracker@0.16", 0.06).slack, 0.16);
+  for (const char* bad : {"", "@0.1", "a@", "a@x", "a@0.1s", "a@-1", "a@nan"}) {
+    EXPECT_THROW(parseParticipant(bad, 0.06), sarn::ParameterError) << bad;
   }
 }
 

@@ -11,6 +11,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
@@ -71,6 +72,21 @@ TEST_F(Topics, theClockTicksEveryStepAndNeverGoesBack) {
   }
   EXPECT_GE(ticks.size(), 50U);
   EXPECT_EQ((end - *ticks.begin()).toNSec(), static_cast<std::int64_t>(ticks.size() - 1) * 10'000'000);
+}
+
+TEST_F(Topics, scansOfTheLidarComeAtItsFrequencyInItsFrame) {
+  const Recorder<sensor_msgs::LaserScan> scans("/scan");
+  ASSERT_TRUE(scans.awaitConnection());
+  step(100);
+  ASSERT_TRUE(scans.awaitCount(10));
+  for (const double difference : stampDifferences(scans.messages)) EXPECT_NEAR(difference, 0.1, 1e-9);
+  for (const auto& scan : scans.messages) {
+    EXPECT_EQ(scan.header.frame_id, "base_laser_link");
+    ASSERT_EQ(scan.ranges.size(), 720U);
+    EXPECT_NEAR(scan.angle_min + 719.0F * scan.angle_increment, scan.angle_max, 1e-4F);
+    EXPECT_NEAR(scan.scan_time, 0.1F, 1e-6F);
+    EXPECT_EQ(scan.time_increment, 0.0F) << "all beams are of the stamp";
+  }
 }
 
 TEST_F(Topics, coreStreamComesAtFiftyHertz) {

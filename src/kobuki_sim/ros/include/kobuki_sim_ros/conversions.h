@@ -15,6 +15,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
 
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@
 #include "kobuki_sim/depth_camera.h"
 #include "kobuki_sim/driver_odometry.h"
 #include "kobuki_sim/kobuki_sensors.h"
+#include "kobuki_sim/lidar.h"
 #include "kobuki_sim/people/person_model.h"
 #include "kobuki_sim_ros/parameters.h"
 
@@ -64,5 +66,8 @@ namespace kobuki_sim {
 [[nodiscard]] sensor_msgs::Image toImage(const DepthImage& image, const ros::Time& stamp);
 /// Pinhole without distortion.
 [[nodiscard]] sensor_msgs::CameraInfo toCameraInfo(const DepthCameraParams& camera, const ros::Time& stamp);
+/// `period` [s] between scans. All beams are of the stamp: time_increment is 0.
+[[nodiscard]] sensor_msgs::LaserScan toLaserScan(const LidarScan& scan, double period,
+                                                 const ros::Time& stamp);
 
 }  // namespace kobuki_sim

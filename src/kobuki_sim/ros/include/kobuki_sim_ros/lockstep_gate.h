@@ -8,12 +8,18 @@
 
 namespace kobuki_sim {
 
-/// Keeps the world within `slack` of the participants that acknowledge simulation time. A participant that
-/// holds the world up for longer than `timeout` of wall time is given up until it acknowledges again.
+/// Somebody for whom the world waits.
+struct LockstepParticipant {
+  std::string name;
+  double slack = 0.0;  // [s] > 0 that the world may be ahead of it
+};
+
+/// Keeps the world within their slack of the participants that acknowledge simulation time. A participant
+/// that holds the world up for longer than `timeout` of wall time is given up until it acknowledges again.
 class LockstepGate {
  public:
-  /// slack [s] > 0, timeout [s] > 0.
-  LockstepGate(const std::vector<std::string>& names, double slack, double timeout);
+  /// timeout [s] > 0.
+  LockstepGate(const std::vector<LockstepParticipant>& participants, double timeout);
 
   /// Participant `index` has processed everything up to `stamp` [ns]; `now` [ns] is the present simulation
   /// time (a stamp from the future counts as now).
@@ -28,13 +34,13 @@ class LockstepGate {
  private:
   struct Participant {
     std::string name;
+    std::int64_t slack = 0;         // [ns]
     std::int64_t acknowledged = 0;  // [ns]
     double blocking_since = -1.0;   // [s] wall; negative: does not hold the world up
     bool given_up = false;
   };
   std::vector<Participant> participants_;
-  std::int64_t slack_;  // [ns]
-  double timeout_;      // [s]
+  double timeout_;  // [s]
   std::vector<std::string> given_up_;
 };
 

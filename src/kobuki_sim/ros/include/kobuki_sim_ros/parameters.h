@@ -8,11 +8,13 @@
 
 #include "kobuki_sim/depth_camera_params.h"
 #include "kobuki_sim/kobuki_params.h"
+#include "kobuki_sim/lidar_params.h"
+#include "kobuki_sim_ros/lockstep_gate.h"
 
 namespace kobuki_sim {
 
-/// Parameters of the simulation node in its private namespace, beside base/* (KobukiParams) and camera/*
-/// (DepthCameraParams).
+/// Parameters of the simulation node in its private namespace, beside base/* (KobukiParams), camera/*
+/// (DepthCameraParams) and lidar/* (LidarParams).
 struct NodeParams {
   std::string scenario;           // path of the scenario file; must be given
   int seed = -1;                  // >= 0; -1: the scenario's own
@@ -22,6 +24,7 @@ struct NodeParams {
   double lockstep_timeout = 5.0;  // [s] wall time without an acknowledgement until a participant is given up
 
   double camera_frequency = 30.0;  // [Hz]
+  double lidar_frequency = 0.0;    // [Hz] of /scan from a lidar; 0: the robot has none
   double people_frequency = 20.0;  // [Hz]
 
   // As the driver of a Kobuki (kobuki_node's base.yaml) has them.
@@ -44,6 +47,7 @@ struct NodeParams {
     v("lockstep_slack", p.lockstep_slack, {0.01, 10.0});
     v("lockstep_timeout", p.lockstep_timeout, {0.01, 3600.0});
     v("camera_frequency", p.camera_frequency, {0.1, 100.0});
+    v("lidar_frequency", p.lidar_frequency, {0.0, 100.0});
     v("people_frequency", p.people_frequency, {0.1, 100.0});
     v("publish_tf", p.publish_tf);
     v("use_imu_heading", p.use_imu_heading);
@@ -63,8 +67,13 @@ struct Parameters {
   NodeParams node;
   KobukiParams base;
   DepthCameraParams camera;
-  std::vector<std::string> lockstep;  // participants: names below lockstep/
+  LidarParams lidar;
+  std::vector<LockstepParticipant> lockstep;  // names below lockstep/
 };
+
+/// A participant written NAME or NAME@SLACK, the latter for who hears of the world less often than the
+/// others: "people_tracker@0.16". Throws sarn::ParameterError.
+[[nodiscard]] LockstepParticipant parseParticipant(const std::string& text, double default_slack);
 
 /// Reads the private namespace. Throws sarn::ParameterError.
 [[nodiscard]] Parameters readParameters(const ros::NodeHandle& private_nh);

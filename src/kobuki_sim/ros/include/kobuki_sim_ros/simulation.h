@@ -13,6 +13,7 @@
 #include "kobuki_sim_ros/base_publisher.h"
 #include "kobuki_sim_ros/camera_publisher.h"
 #include "kobuki_sim_ros/ground_truth_publisher.h"
+#include "kobuki_sim_ros/lidar_publisher.h"
 #include "kobuki_sim_ros/parameters.h"
 
 namespace kobuki_sim {
@@ -47,6 +48,7 @@ class Simulation {
   BaseCommands commands_;
   BasePublisher base_publisher_;
   CameraPublisher camera_publisher_;
+  LidarPublisher lidar_publisher_;
   GroundTruthPublisher truth_publisher_;
 };
 

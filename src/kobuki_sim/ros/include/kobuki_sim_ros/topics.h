@@ -39,6 +39,9 @@ inline constexpr char kDiagnosticsTopic[] = "diagnostics";
 inline constexpr char kDepthImageTopic[] = "camera/depth/image_raw";
 inline constexpr char kCameraInfoTopic[] = "camera/depth/camera_info";
 
+// Lidar, where there is one.
+inline constexpr char kScanTopic[] = "scan";
+
 // World.
 inline constexpr char kClockTopic[] = "clock";
 inline constexpr char kTruthOdometryTopic[] = "ground_truth/odom";
@@ -56,5 +59,6 @@ inline constexpr char kBaseLinkFrame[] = "base_link";
 inline constexpr char kGyroFrame[] = "gyro_link";
 inline constexpr char kDockIrFrame[] = "dock_ir_link";
 inline constexpr char kDepthOpticalFrame[] = "camera_depth_optical_frame";
+inline constexpr char kLidarFrame[] = "base_laser_link";
 
 }  // namespace kobuki_sim
