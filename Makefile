@@ -41,7 +41,7 @@ sim:  ## Set up, build, and drive the robot through a scenario (exit code 0: all
 view:  ## RViz on a running simulation or robot
 	@tools/setup gui && tools/build && tools/with_workspace roslaunch --wait sarn_bringup view.launch $(ARGS)
 
-map:  ## The simulated robot drives through the office and draws a map: build/map/office.{pgm,yaml}
+map:  ## The simulated robot drives through the office and draws a map: build/map/office.{png,yaml}
 	@tools/setup run && tools/build && mkdir -p build/map && \
 	  tools/with_workspace roslaunch sarn_bringup mapping.launch map_file:=$(CURDIR)/build/map/office $(ARGS)
 

@@ -35,14 +35,7 @@ sarn_perception::DepthToScanParams shippedScanParams() {
 }
 
 sarn_perception::CameraCalibration calibration(const kobuki_sim::DepthCameraParams& p) {
-  sarn_perception::CameraCalibration c;
-  c.width = p.width;
-  c.height = p.height;
-  c.distortion_model = "plumb_bob";
-  c.d.assign(5, 0.0);
-  c.k = {p.fx, 0.0, p.cx, 0.0, p.fy, p.cy, 0.0, 0.0, 1.0};
-  c.p = {p.fx, 0.0, p.cx, 0.0, 0.0, p.fy, p.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return c;
+  return sarn_perception::pinholeCalibration(p.width, p.height, {p.fx, p.fy, p.cx, p.cy});
 }
 
 kobuki_sim::Scenario peopled(kobuki_sim::Scenario scenario, bool crowded) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "sarn_common/angles.h"
 #include "sarn_localization/grid_slam.h"
 #include "sarn_localization/wall_distance.h"
 #include "simulated_drive.h"
@@ -43,6 +44,14 @@ int run(const std::filesystem::path& launch, std::uint64_t seed, const char* out
     const sarn::Pose2D found = world_from_map * *slam.mapFromOdom() * sample.robot_in_odom;
     error = (found.position() - sample.robot_in_map.position()).norm();
     greatest_error = std::max(greatest_error, error);
+    if (std::getenv("BENCH_TRACE") != nullptr && used % 20 == 0) {
+      const sarn::Pose2D off = sarn::inverse(sample.robot_in_map) * found;
+      const sarn::Pose2D blind = sarn::inverse(sample.robot_in_map) * world_from_map * sample.robot_in_odom;
+      std::fprintf(stderr,
+                   "%.1f s at (%.1f, %.1f): off %.3f %.3f m %.2f deg, odometry %.3f %.3f m %.2f deg\n",
+                   sample.time, sample.robot_in_map.x, sample.robot_in_map.y, off.x, off.y,
+                   off.theta * 180.0 / sarn::kPi, blind.x, blind.y, blind.theta * 180.0 / sarn::kPi);
+    }
   }
   const auto map = slam.map();
   if (!map) throw std::runtime_error("no map was built");

@@ -2,29 +2,28 @@
 #include "sarn_localization/grid_slam.h"
 
 #include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/maps/CMultiMetricMapPDF.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/random/RandomGenerators.h>
-#include <mrpt/slam/CMetricMapBuilderRBPF.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "sarn_common/parameters.h"
+#include "sarn_localization/scan_match.h"
 
 namespace sarn_localization {
 namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
-constexpr float kUnseen = 1e-3F;        // [1] a probability this near to one half says nothing
-constexpr std::size_t kFewest = 10;     // a scan with fewer returns says nothing
-constexpr float kStartHalfEdge = 5.0F;  // [m] of the map at first; it grows
+constexpr float kUnseen = 1e-3F;     // [1] a probability this near to one half says nothing
+constexpr std::size_t kFewest = 10;  // a scan with fewer returns says nothing
 
 const SlamParams& checked(const SlamParams& params) {
   std::string text;
@@ -33,52 +32,72 @@ const SlamParams& checked(const SlamParams& params) {
   return params;
 }
 
-mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions builderOptions(const SlamParams& p) {
-  mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions options;
-  // When a scan is used is decided before MRPT sees it.
-  options.insertionLinDistance = options.insertionAngDistance = 0.0F;
-  options.localizeLinDistance = options.localizeAngDistance = 0.0F;
-  options.verbosity_level = mrpt::system::LVL_ERROR;
-  options.PF_options.PF_algorithm = mrpt::bayes::CParticleFilter::pfStandardProposal;
-  options.PF_options.resamplingMethod = mrpt::bayes::CParticleFilter::prSystematic;
-  options.PF_options.adaptiveSampleSize = false;
-  options.PF_options.sampleSize = static_cast<unsigned>(p.particles);
-  options.PF_options.BETA = p.resample_threshold;
-  options.PF_options.powFactor = p.likelihood_exponent;
+mrpt::bayes::CParticleFilter::TParticleFilterOptions filterOptions(const SlamParams& p) {
+  mrpt::bayes::CParticleFilter::TParticleFilterOptions options;
+  options.PF_algorithm = mrpt::bayes::CParticleFilter::pfOptimalProposal;
+  options.resamplingMethod = mrpt::bayes::CParticleFilter::prSystematic;
+  options.adaptiveSampleSize = false;
+  options.sampleSize = static_cast<unsigned>(p.particles);
+  return options;
+}
 
+// Each particle has two grids. Beams that graze a wall pass through the cells that others hit, and wear it
+// off on the near side: matched against such a map, scans turn and shift it a little with each step. So scans
+// are matched against a grid in which a beam hardly clears what it passes; the other one, which forgets
+// people soon, is the map.
+constexpr std::size_t kPublished = 0;
+constexpr std::size_t kMatched = 1;
+constexpr double kMatchingFreeCertainty = 0.52;  // [1] that a cell is free, from one beam through it
+
+mrpt::maps::TSetOfMetricMapInitializers gridsOf(const SlamParams& p) {
   Grid::TMapDefinition grid;
-  grid.min_x = grid.min_y = -kStartHalfEdge;
-  grid.max_x = grid.max_y = kStartHalfEdge;
+  grid.min_x = static_cast<float>(p.xmin);
+  grid.min_y = static_cast<float>(p.ymin);
+  grid.max_x = static_cast<float>(p.xmax);
+  grid.max_y = static_cast<float>(p.ymax);
   grid.resolution = static_cast<float>(p.delta);
   grid.insertionOpts.maxDistanceInsertion = static_cast<float>(p.max_urange);
   grid.insertionOpts.considerInvalidRangesAsFreeSpace = false;
   grid.insertionOpts.wideningBeamsWithDistance = false;
-  grid.likelihoodOpts.likelihoodMethod = Grid::lmLikelihoodField_Thrun;
-  grid.likelihoodOpts.LF_stdHit = static_cast<float>(p.sigma);
-  grid.likelihoodOpts.LF_maxRange = static_cast<float>(p.max_urange);
-  grid.likelihoodOpts.LF_maxCorrsDistance = 0.3F;
-  grid.likelihoodOpts.LF_decimation = 2;
-  options.mapsInitializers.push_back(grid);
-  return options;
+  mrpt::maps::TSetOfMetricMapInitializers initializers;
+  initializers.push_back(grid);
+  grid.insertionOpts.maxFreenessUpdateCertainty = static_cast<float>(kMatchingFreeCertainty);
+  initializers.push_back(grid);
+  return initializers;
 }
 
-mrpt::obs::CActionCollection movement(const sarn::Pose2D& motion, const SlamParams& p) {
-  mrpt::obs::CActionRobotMovement2D::TMotionModelOptions noise;
-  noise.modelSelection = mrpt::obs::CActionRobotMovement2D::mmGaussian;
-  noise.gaussianModel.a1 = p.srr;
-  noise.gaussianModel.a2 = p.srt;
-  noise.gaussianModel.a3 = p.str;
-  noise.gaussianModel.a4 = p.stt;
-  noise.gaussianModel.minStdXY = 0.001;
-  noise.gaussianModel.minStdPHI = 0.0002;
-  mrpt::obs::CActionRobotMovement2D action;
-  action.computeFromOdometry(mrpt::poses::CPose2D(motion.x, motion.y, motion.theta), noise);
-  mrpt::obs::CActionCollection actions;
-  actions.insert(action);
-  return actions;
+/// What scan matching asks of MRPT's grid.
+class GridView {
+ public:
+  explicit GridView(const Grid& grid) : grid_(grid) {}
+  [[nodiscard]] double resolution() const { return static_cast<double>(grid_.getResolution()); }
+  [[nodiscard]] double centerX(int x) const { return static_cast<double>(grid_.idx2x(x)); }
+  [[nodiscard]] double centerY(int y) const { return static_cast<double>(grid_.idx2y(y)); }
+  [[nodiscard]] int cellX(double x) const { return grid_.x2idx(static_cast<float>(x)); }
+  [[nodiscard]] int cellY(double y) const { return grid_.y2idx(static_cast<float>(y)); }
+  /// MRPT's cells hold the probability that they are free; outside it says one half.
+  [[nodiscard]] double occupancy(int x, int y) const {
+    return 1.0 - static_cast<double>(grid_.getCell(x, y));
+  }
+
+ private:
+  const Grid& grid_;
+};
+
+/// Standard errors of a motion: x, y [m], theta [rad].
+Eigen::Vector3d motionSigma(const sarn::Pose2D& motion, const SlamParams& p) {
+  constexpr double kLeastXy = 0.001;      // [m]
+  constexpr double kLeastTheta = 0.0005;  // [rad]
+  const double d = motion.position().norm();
+  const double turn = std::abs(motion.theta);
+  const double xy = kLeastXy + p.srr * d + p.srt * turn;
+  return {xy, xy, kLeastTheta + p.str * d + p.stt * turn};
 }
 
-/// Every few beams of a scan, with the bias taken off; returns how many are valid.
+/// Every few beams of a scan, with the bias taken off; returns how many are valid. MRPT's grid spreads n
+/// beams over an aperture in steps of aperture / n from its edge, its maps of points in steps of aperture /
+/// (n - 1): a quarter of a degree between drawing and matching that would turn the map a little with each
+/// scan. So the aperture here is n steps, and where the beams ended is told by endsOf.
 std::size_t fill(const PlanarScan& scan, const sarn::Pose2D& base_from_sensor, const SlamParams& p,
                  mrpt::obs::CObservation2DRangeScan& out) {
   const auto stride = static_cast<std::size_t>(p.lskip) + 1;
@@ -86,7 +105,7 @@ std::size_t fill(const PlanarScan& scan, const sarn::Pose2D& base_from_sensor, c
   if (count < 2 || !std::isfinite(scan.angle_min) || !std::isfinite(scan.angle_increment)) return 0;
   const double low = std::max(scan.range_min, p.min_range);
   const double high = std::min(scan.range_max, p.max_urange);
-  const double span = scan.angle_increment * static_cast<double>((count - 1) * stride);
+  const double span = scan.angle_increment * static_cast<double>(count * stride);
   out.aperture = static_cast<float>(std::abs(span));
   out.rightToLeft = span > 0.0;
   out.maxRange = static_cast<float>(p.max_urange);
@@ -105,12 +124,33 @@ std::size_t fill(const PlanarScan& scan, const sarn::Pose2D& base_from_sensor, c
   return valid;
 }
 
+/// Where valid beams ended [m], in base.
+std::vector<Eigen::Vector2d> endsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
+  std::vector<Eigen::Vector2d> ends;
+  const sarn::Pose2D base_from_sensor{scan.sensorPose.x(), scan.sensorPose.y(), scan.sensorPose.yaw()};
+  const auto count = static_cast<double>(scan.getScanSize());
+  const double span = (scan.rightToLeft ? 1.0 : -1.0) * static_cast<double>(scan.aperture);
+  for (std::size_t k = 0; k < scan.getScanSize(); ++k) {
+    if (!scan.getScanRangeValidity(k)) continue;
+    const double bearing = span * (static_cast<double>(k) / count - 0.5);
+    const auto range = static_cast<double>(scan.getScanRange(k));
+    ends.emplace_back(base_from_sensor *
+                      Eigen::Vector2d(range * std::cos(bearing), range * std::sin(bearing)));
+  }
+  return ends;
+}
+
 }  // namespace
 
 struct GridSlam::Impl {
-  explicit Impl(const SlamParams& p) : params(checked(p)), builder(builderOptions(params)) {
+  explicit Impl(const SlamParams& p)
+      : params(checked(p)),
+        options(filterOptions(params)),
+        filter(options, gridsOf(params), {}),
+        robot_in_map{params.initial_pose_x, params.initial_pose_y, params.initial_pose_a} {
     mrpt::random::getRandomGenerator() =
         mrpt::random::CRandomGenerator(static_cast<std::uint32_t>(params.random_seed));
+    filter.clear(mrpt::poses::CPose2D(robot_in_map.x, robot_in_map.y, robot_in_map.theta));
   }
 
   bool addScan(const sarn::Pose2D& robot_in_odom, const sarn::Pose2D& base_from_sensor,
@@ -121,18 +161,60 @@ struct GridSlam::Impl {
     if (odom_at_update && !moved) return false;
     auto observation = mrpt::obs::CObservation2DRangeScan::Create();
     if (fill(scan, base_from_sensor, params, *observation) < kFewest) return false;
-    mrpt::obs::CActionCollection actions = movement(motion, params);
+    if (odom_at_update) {
+      moveParticles(motion, endsOf(*observation));
+      filter.normalizeWeights();
+      if (filter.ESS() < params.resample_threshold) filter.performResampling(options);
+    }
     mrpt::obs::CSensoryFrame frame;
     frame.insert(observation);
-    builder.processActionObservation(actions, frame);
+    filter.insertObservation(frame);
     odom_at_update = robot_in_odom;
-    const auto pose = builder.getCurrentPoseEstimation()->getMeanVal();
-    robot_in_map = {pose.x(), pose.y(), pose.yaw()};
+    robot_in_map = pose(likeliest());
     return true;
   }
 
+  [[nodiscard]] std::size_t likeliest() const {
+    const auto& particles = filter.m_particles;
+    const auto best = std::max_element(particles.begin(), particles.end(),
+                                       [](const auto& a, const auto& b) { return a.log_w < b.log_w; });
+    return static_cast<std::size_t>(best - particles.begin());
+  }
+  [[nodiscard]] Grid::Ptr grid(std::size_t particle, std::size_t which) const {
+    return filter.m_particles[particle].d->mapTillNow.mapByClass<Grid>(which);
+  }
+
+ private:
+  [[nodiscard]] sarn::Pose2D pose(std::size_t particle) const {
+    const auto& last = filter.m_particles[particle].d->robotPath.back();
+    return {last.x, last.y, last.yaw};
+  }
+
+  /// Draws each particle's next pose from where odometry, scan and its own map agree, and weighs it by how
+  /// well they do.
+  void moveParticles(const sarn::Pose2D& motion, const std::vector<Eigen::Vector2d>& ends) {
+    const Eigen::Vector3d sigma = motionSigma(motion, params);
+    const ScanMatchParams matching{params.match_reach, 0.5 * params.match_reach, params.sigma, 2.0,
+                                   params.match_exponent};
+    for (std::size_t i = 0; i < filter.m_particles.size(); ++i) {
+      const ScanMatch match =
+          matchScan(GridView(*grid(i, kMatched)), ends, pose(i) * motion, sigma, matching);
+      const Eigen::Matrix3d root = match.covariance.llt().matrixL();
+      auto& random = mrpt::random::getRandomGenerator();
+      Eigen::Vector3d draw;
+      for (double& value : draw) value = random.drawGaussian1D_normalized();
+      const Eigen::Vector3d error = root * draw;
+      auto& particle = filter.m_particles[i];
+      particle.d->robotPath.emplace_back(match.pose.x + error.x(), match.pose.y + error.y(), 0.0,
+                                         sarn::wrapAngle(match.pose.theta + error.z()), 0.0, 0.0);
+      particle.log_w += params.likelihood_exponent * match.log_likelihood;
+    }
+  }
+
+ public:
   SlamParams params;
-  mrpt::slam::CMetricMapBuilderRBPF builder;
+  mrpt::bayes::CParticleFilter::TParticleFilterOptions options;
+  mrpt::maps::CMultiMetricMapPDF filter;
   std::optional<sarn::Pose2D> odom_at_update;  // robot in odom
   sarn::Pose2D robot_in_map;                   // at the same time
 };
@@ -154,8 +236,7 @@ std::optional<sarn::Pose2D> GridSlam::mapFromOdom() const {
 
 std::optional<sarn::OccupancyMap> GridSlam::map() const {
   if (!impl_->odom_at_update) return std::nullopt;
-  const auto* maps = impl_->builder.getCurrentlyBuiltMetricMap();
-  const Grid::Ptr grid = maps != nullptr ? maps->mapByClass<Grid>() : nullptr;
+  const Grid::Ptr grid = impl_->grid(impl_->likeliest(), kPublished);
   if (!grid) return std::nullopt;
   const int width = static_cast<int>(grid->getSizeX());
   const int height = static_cast<int>(grid->getSizeY());

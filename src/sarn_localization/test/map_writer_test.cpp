@@ -32,6 +32,16 @@ TEST_F(MapWriterTest, writesWhatLoadMapReads) {
   EXPECT_EQ(files(), 2) << "nothing unfinished stays";
 }
 
+TEST_F(MapWriterTest, writesPngWhereTheNameSaysSo) {
+  const sarn::OccupancyMap map = drawnMap({"#.?", "..#"}, 0.05);
+  writeMap(map, directory_ / "drawn.png");
+  EXPECT_TRUE(fs::exists(directory_ / "drawn.png"));
+  const sarn::OccupancyMap read = sarn::loadMap(directory_ / "drawn.yaml");
+  EXPECT_EQ(read.geometry, map.geometry);
+  EXPECT_EQ(read.cells, map.cells);
+  EXPECT_EQ(files(), 2);
+}
+
 TEST_F(MapWriterTest, replacesAnOlderMapAndCreatesDirectories) {
   writeMap(drawnMap({"#.", ".."}, 0.1), directory_ / "new" / "drawn");
   const sarn::OccupancyMap second = drawnMap({"##.", "..?"}, 0.05);

@@ -25,6 +25,18 @@ TEST(Parameters, shippedYamlNamesEveryField) {
   expectShippedYamlMatches<SlamParams>("config/slam.yaml");
 }
 
+/// A file that is loaded over another one names some fields, with values that can be.
+template <class P>
+void expectOverlayMatches(const std::string& file) {
+  P params;
+  EXPECT_EQ(sarn::setFromYaml(YAML::LoadFile(file), params), std::vector<std::string>{}) << file;
+}
+
+TEST(Parameters, theLidarsFilesNameFields) {
+  expectOverlayMatches<LocalizationParams>("config/localization_lidar.yaml");
+  expectOverlayMatches<SlamParams>("config/slam_lidar.yaml");
+}
+
 TEST(Parameters, contradictionsOfLocalizationAreProblems) {
   EXPECT_TRUE(sarn::problems(LocalizationParams{}).empty());
   LocalizationParams params;

@@ -86,4 +86,15 @@ PinholeCamera pinholeCamera(const CameraCalibration& c, int image_width, int ima
   return camera;
 }
 
+CameraCalibration pinholeCalibration(int width, int height, const PinholeCamera& camera) {
+  CameraCalibration c;
+  c.width = width;
+  c.height = height;
+  c.distortion_model = "plumb_bob";
+  c.d.assign(5, 0.0);
+  c.k = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+  c.p = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return c;
+}
+
 }  // namespace sarn_perception

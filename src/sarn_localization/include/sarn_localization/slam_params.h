@@ -18,11 +18,14 @@ struct SlamParams {
   double map_update_interval = 2.0;  // [s] between published maps
 
   // Particles
-  int particles = 30;
+  int particles = 10;
   double resample_threshold = 0.5;  // [1] effective share of the particles below which they are resampled
   double linear_update = 0.2;       // [m] of motion before a scan is used
   double angular_update = 0.15;     // [rad]
   int random_seed = 1;              // of everything random
+  double initial_pose_x = 0.0;      // [m] in map, where the first scan is taken
+  double initial_pose_y = 0.0;      // [m]
+  double initial_pose_a = 0.0;      // [rad]
 
   // Motion: standard deviations per motion
   double srr = 0.01;   // [m/m] of translation, from translation
@@ -34,11 +37,18 @@ struct SlamParams {
   double max_urange = 6.0;           // [m] farther returns are not used
   double min_range = 0.45;           // [m]
   double laser_range_bias = 0.0023;  // [1/m] a range r is measured this times r^2 too short (Xtion, ten rows)
-  int lskip = 3;                     // beams left out between two that are used
-  double sigma = 0.1;                // [m] of a return around its wall
-  double likelihood_exponent = 0.03;  // [1] neighbouring beams err together: (product of beams)^exponent
-  double delta = 0.05;                // [m] edge of a map cell
-  double occ_thresh = 0.5;            // [1] probability from which a cell is published as occupied
+  int lskip = 1;                     // beams left out between two that are used
+  double sigma = 0.05;               // [m] of a return around its wall
+  double match_reach = 0.16;         // [m] walls up to about twice as far off still pull a scan
+  double match_exponent = 1.0;  // [1] neighbouring beams err together: (product of beams)^exponent, of poses
+  double likelihood_exponent =
+      0.03;                 // [1] neighbouring beams err together: (product of beams)^exponent, of weights
+  double xmin = -5.0;       // [m] of the map at first; it grows
+  double ymin = -5.0;       // [m]
+  double xmax = 5.0;        // [m]
+  double ymax = 5.0;        // [m]
+  double delta = 0.05;      // [m] edge of a map cell
+  double occ_thresh = 0.5;  // [1] probability from which a cell is published as occupied
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {
@@ -52,6 +62,9 @@ struct SlamParams {
     v("linearUpdate", p.linear_update, {0.0, 5.0});
     v("angularUpdate", p.angular_update, {0.0, 6.3});
     v("random_seed", p.random_seed, {0.0, 2147483647.0});
+    v("initial_pose_x", p.initial_pose_x, {-1e4, 1e4});
+    v("initial_pose_y", p.initial_pose_y, {-1e4, 1e4});
+    v("initial_pose_a", p.initial_pose_a, {-6.3, 6.3});
     v("srr", p.srr, {0.0, 1.0});
     v("srt", p.srt, {0.0, 1.0});
     v("str", p.str, {0.0, 1.0});
@@ -61,7 +74,13 @@ struct SlamParams {
     v("laser_range_bias", p.laser_range_bias, {-0.1, 0.1});
     v("lskip", p.lskip, {0.0, 1000.0});
     v("sigma", p.sigma, {0.005, 1.0});
+    v("match_reach", p.match_reach, {0.02, 1.0});
+    v("match_exponent", p.match_exponent, {0.001, 1.0});
     v("likelihood_exponent", p.likelihood_exponent, {0.001, 1.0});
+    v("xmin", p.xmin, {-1e4, 1e4});
+    v("ymin", p.ymin, {-1e4, 1e4});
+    v("xmax", p.xmax, {-1e4, 1e4});
+    v("ymax", p.ymax, {-1e4, 1e4});
     v("delta", p.delta, {0.01, 1.0});
     v("occ_thresh", p.occ_thresh, {0.01, 0.99});
   }
@@ -71,6 +90,7 @@ struct SlamParams {
         odom_frame == base_frame || map_frame == base_frame) {
       problems.emplace_back("map_frame, odom_frame, base_frame: must be three different names");
     }
+    if (xmin >= xmax || ymin >= ymax) problems.emplace_back("xmin, ymin: must be less than xmax, ymax");
     if (min_range >= max_urange) problems.emplace_back("minRange: must be less than maxUrange");
     return problems;
   }

@@ -16,7 +16,8 @@ namespace {
 std::string baseName(int argc, char** argv) {
   if (argc == 1) return "map";
   if (argc == 3 && std::string(argv[1]) == "-f") return argv[2];
-  ROS_FATAL("usage: map_saver [-f BASE] (writes BASE.pgm and BASE.yaml)");
+  ROS_FATAL(
+      "usage: map_saver [-f BASE] (writes BASE.pgm and BASE.yaml; with -f BASE.png: BASE.png and BASE.yaml)");
   return {};
 }
 
@@ -43,7 +44,7 @@ int main(int argc, char** argv) {
     ROS_FATAL_STREAM(error.what());
     return EXIT_FAILURE;
   }
-  ROS_INFO_STREAM("wrote " << base << ".yaml and " << base << ".pgm: " << map->geometry.width << " x "
-                           << map->geometry.height << " cells of " << map->geometry.resolution << " m");
+  ROS_INFO_STREAM("wrote the map to " << base << ": " << map->geometry.width << " x " << map->geometry.height
+                                      << " cells of " << map->geometry.resolution << " m");
   return EXIT_SUCCESS;
 }

@@ -39,6 +39,9 @@ struct PinholeCamera {
   double bearing_right = 0.0;  // [rad] < 0, of the last column
 };
 
+/// Of a camera without distortion.
+[[nodiscard]] CameraCalibration pinholeCalibration(int width, int height, const PinholeCamera& camera);
+
 /// Throws DepthInputError on a calibration that cannot be right.
 [[nodiscard]] PinholeCamera pinholeCamera(const CameraCalibration& calibration, int image_width,
                                           int image_height);
