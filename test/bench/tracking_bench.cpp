@@ -5,10 +5,11 @@
 // 1.5 deg. Prints JSON lines.
 //
 // tracking_bench MAP.yaml CONFIG_DIR [--duration S] [--seeds N] [--sensor xtion|lidar] [--beams N]
-//                [--detectors legs|bodies|both] [--people N] [--motion NAME] [--csv FILE] [--verbose]
+//                [--detectors legs|bodies|both] [--people N] [--motion NAME] [--first-seed N]
+//                [--csv FILE] [--errors FILE] [--verbose]
 #include <yaml-cpp/yaml.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -31,20 +32,23 @@ namespace {
 
 using namespace sarn_tests;  // NOLINT(google-build-using-namespace): a main
 
-constexpr double kRange = 5.0;              // [m] people beyond need not be reported
-constexpr double kBodyPeriod = 1.0 / 30.0;  // [s] the node looks for bodies at 30 Hz
+constexpr double kRange = 5.0;                // [m] people beyond need not be reported
+constexpr double kCameraPeriod = 1.0 / 30.0;  // [s] the node looks for bodies in each image
+constexpr double kLidarPeriod = 0.1;          // [s]
 
 struct Options {
   std::string map;
   std::string config;
   double duration = 40.0;  // [s] a run
   int seeds = 1;
+  int first_seed = 1;
   std::string sensor = "both";
   int beams = 720;
   std::string detectors = "both";
   int people = -1;  // -1: 1, 4 and 10
   std::string motion;
-  std::string csv;
+  std::string csv;     // of everybody, true and reported
+  std::string errors;  // of velocities
   bool verbose = false;
 };
 
@@ -75,8 +79,12 @@ Options readOptions(int argc, char** argv) {
       options.people = std::stoi(value);
     else if (key == "--motion")
       options.motion = value;
+    else if (key == "--first-seed")
+      options.first_seed = std::stoi(value);
     else if (key == "--csv")
       options.csv = value;
+    else if (key == "--errors")
+      options.errors = value;
     else
       throw std::invalid_argument(key + ": no such option");
   }
@@ -117,6 +125,17 @@ struct Cost {
   double simulated = 0.0;  // [s]
 };
 
+kobuki_sim::LidarParams lidarParams(int beams) {
+  kobuki_sim::LidarParams params;
+  params.beams = beams;
+  return params;
+}
+
+/// Files for whoever looks into a figure; none by default.
+struct Outputs {
+  std::unique_ptr<std::ofstream> tracks, errors;
+};
+
 /// One run of one sensor.
 class Run {
  public:
@@ -128,32 +147,30 @@ class Run {
         world_(trackingScenario(spec, *map), map, spec.seed),
         camera_(camera_params_, spec.seed),
         depth_to_scan_(depthParams(options)),
-        lidar_(options.beams, spec.seed),
+        lidar_(lidarParams(options.beams), spec.seed),
         error_(spec.seed),
         perception_(readParams(options, sensor)) {
     perception_.setMap(map->map());
   }
 
-  void play(TrackingScore& score, Cost& cost, std::ofstream* csv) {
+  void play(TrackingScore& score, Cost& cost, const Outputs& outputs) {
     double last = 0.0;
     double next_frame = 0.0;
-    double next_body = 0.0;
+    const double period = sensor_ == "lidar" ? kLidarPeriod : kCameraPeriod;
     std::uint64_t packets = 0;
     while (world_.time() < spec_.duration) {
       const sarn::Twist2D command = commandFor(spec_.motion, world_);
       world_.base().commandVelocity(command.v, command.omega);
       world_.step();
-      // Frames at 30 Hz, when the odometry is fresh: the node gets its pose at a frame's stamp from tf.
+      // Frames when the odometry is fresh: the node gets its pose at a frame's stamp from tf.
       const bool fresh = world_.base().packetCount() != packets;
       packets = world_.base().packetCount();
       if (!fresh || world_.time() + 1e-9 < next_frame) continue;
-      next_frame += 1.0 / 30.0;
+      next_frame += period;
       const double dt = world_.time() - last;
       last = world_.time();
-      const bool look_for_bodies = world_.time() + 1e-9 >= next_body;
-      if (look_for_bodies) next_body = world_.time() + kBodyPeriod;
-      frame(dt, look_for_bodies, cost);
-      judge(score, csv);
+      frame(dt, cost);
+      judge(score, outputs);
     }
     cost.simulated += spec_.duration;
     score.nextRun();
@@ -172,15 +189,16 @@ class Run {
     }
   }
 
-  void frame(double dt, bool look_for_bodies, Cost& cost) {
+  void frame(double dt, Cost& cost) {
     const double stamp = world_.time();
     const sarn::Pose2D& odom_from_base = world_.base().odometry().pose();
     map_from_odom_ = world_.robotPose() * sarn::inverse(odom_from_base);
     const sarn::Pose2D localized = world_.robotPose() * error_.advance(dt) * sarn::inverse(odom_from_base);
     if (sensor_ == "lidar") {
-      const auto scan = lidar_.scan(world_);
+      const auto scan =
+          planarScan(lidar_.measure(world_.map(), world_.robotPose(), world_.people(), world_.steps()));
       const double begin = cpuTime();
-      perception_.takeScan(scan, {odom_from_base, localized}, stamp);
+      perception_.takeScan(scan, {odom_from_base * lidar_.baseFromLidar(), localized}, stamp);
       cost.seconds += cpuTime() - begin;
       return;
     }
@@ -193,7 +211,7 @@ class Run {
       const auto scan = depth_to_scan_.convert(view, calibration, stamp);
       perception_.takeScan(scan, {odom_from_base * base_from_scan, localized}, stamp);
     }
-    if (options_.detectors != "legs" && look_for_bodies) {
+    if (options_.detectors != "legs") {
       perception_.takeDepth(view, calibration, baseFromOptical(camera_params_), {odom_from_base, localized},
                             stamp);
     }
@@ -201,10 +219,10 @@ class Run {
     cost.seconds += cpuTime() - begin;
   }
 
-  void judge(TrackingScore& score, std::ofstream* csv) {
+  void judge(TrackingScore& score, const Outputs& outputs) {
     const bool lidar = sensor_ == "lidar";
     const sarn::Pose2D base_from_sensor =
-        lidar ? sarn::Pose2D{} : sarn::Pose2D{camera_params_.mount_x, camera_params_.mount_y, 0.0};
+        lidar ? lidar_.baseFromLidar() : sarn::Pose2D{camera_params_.mount_x, camera_params_.mount_y, 0.0};
     const double half_view =
         lidar ? 2.0 * sarn::kPi : std::atan(0.5 * camera_params_.width / camera_params_.fx);
     auto truth =
@@ -217,7 +235,8 @@ class Run {
                           world_.time() - track.first_seen});
     }
     score.add(truth, reported, world_.time(), std::abs(world_.robotTwist().omega) > 0.8);
-    if (csv != nullptr) write(*csv, truth, reported);
+    if (outputs.tracks) write(*outputs.tracks, truth, reported);
+    if (outputs.errors) writeErrors(*outputs.errors, truth, score);
   }
 
   /// Whether somebody has kept its velocity within 0.25 m/s for half a second. The simulator's people start,
@@ -245,6 +264,27 @@ class Run {
     }
   }
 
+  /// One line a judged velocity: what it was and what might explain its error.
+  void writeErrors(std::ofstream& csv, const std::vector<TruePerson>& truth, const TrackingScore& score) {
+    for (const auto& [person, report] : score.lastMatches()) {
+      const auto one =
+          std::find_if(truth.begin(), truth.end(), [&](const auto& p) { return p.id == person; });
+      if (one == truth.end() || !one->visible) continue;
+      for (const auto& track : perception_.tracker().people()) {
+        if (track.id != report) continue;
+        const Eigen::Vector2d v =
+            sarn::Pose2D{0.0, 0.0, map_from_odom_.theta} * track.filter.velocity() - one->velocity;
+        const Eigen::Vector2d place = sarn::inverse(world_.robotPose()) * one->position;
+        csv << spec_.people << "," << spec_.seed << "," << world_.time() << "," << person << "," << report
+            << "," << world_.time() - track.first_seen << "," << world_.time() - track.last_seen << ","
+            << track.seen_by[0] << "," << track.seen_by[1] << "," << place.norm() << ","
+            << std::atan2(place.y(), place.x()) << "," << one->velocity.x() << "," << one->velocity.y() << ","
+            << v.x() << "," << v.y() << "," << world_.time() - kept_.at(person).since << ","
+            << std::sqrt(track.filter.covariance()(2, 2)) << "," << world_.robotTwist().omega << "\n";
+      }
+    }
+  }
+
   struct Kept {
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [m/s]
     double since = 0.0;                                  // [s]
@@ -258,7 +298,7 @@ class Run {
   kobuki_sim::DepthCameraParams camera_params_;
   kobuki_sim::DepthCamera camera_;
   sarn_perception::DepthToScan depth_to_scan_;
-  Lidar lidar_;
+  kobuki_sim::Lidar lidar_;
   LocalizationError error_;
   sarn_perception::PeoplePerception perception_;
   sarn::Pose2D map_from_odom_;
@@ -283,22 +323,27 @@ void benchSensor(const Options& options, const std::string& sensor,
   TrackingScore all;
   TrackingScore empty;
   Cost cost;
-  std::unique_ptr<std::ofstream> csv;
-  if (!options.csv.empty()) csv = std::make_unique<std::ofstream>(options.csv);
+  Outputs outputs;
+  if (!options.csv.empty()) outputs.tracks = std::make_unique<std::ofstream>(options.csv);
+  if (!options.errors.empty()) {
+    outputs.errors = std::make_unique<std::ofstream>(options.errors);
+    *outputs.errors
+        << "people,seed,t,person,track,age,unseen,legs,bodies,range,bearing,vx,vy,ex,ey,kept,sigma,omega\n";
+  }
   const std::vector<int> crowds =
       options.people >= 0 ? std::vector<int>{options.people} : std::vector<int>{0, 1, 4, 10};
   for (const auto& [name, motion] : kMotions) {
     if (!options.motion.empty() && options.motion != name) continue;
     for (const int people : crowds) {
-      for (int seed = 1; seed <= options.seeds; ++seed) {
+      for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
         RunSpec spec{options.map, motion, people, static_cast<std::uint64_t>(100 * people + seed),
                      options.duration};
         TrackingScore one;
         TrackingScore& total = people == 0 ? empty : all;
-        Run(options, sensor, spec, map).play(total, cost, csv.get());
+        Run(options, sensor, spec, map).play(total, cost, outputs);
         if (!options.verbose) continue;
         Cost unused;
-        Run(options, sensor, spec, map).play(one, unused, nullptr);
+        Run(options, sensor, spec, map).play(one, unused, {});
         describe(sensor + " " + name + " " + std::to_string(people), one);
       }
     }
@@ -316,6 +361,7 @@ void benchSensor(const Options& options, const std::string& sensor,
   print("velocity_rmse_steady", all.velocityRmseSteadyTurning());
   print("velocity_rmse_all", all.velocityRmse());
   print("id_switches", all.switches());
+  print("latency_s.mean", all.meanLatency());
   print("ghost_s", empty.longestGhost());
   print("core_cpu_cores", cost.seconds / cost.simulated);
 }

@@ -47,7 +47,10 @@ void TrackingScore::add(const std::vector<TruePerson>& truth, const std::vector<
                         double stamp, bool turning) {
   const std::vector<int> matches = match(truth, reported);
   std::vector<bool> right(reported.size(), false);
+  last_matches_.clear();
   for (std::size_t i = 0; i < truth.size(); ++i) {
+    time(truth[i], matches[i] >= 0, stamp);
+    if (matches[i] >= 0) last_matches_[truth[i].id] = reported[static_cast<std::size_t>(matches[i])].id;
     if (matches[i] < 0) {
       if (truth[i].visible) missed_ += 1.0;
       continue;
@@ -77,6 +80,17 @@ void TrackingScore::add(const std::vector<TruePerson>& truth, const std::vector<
   }
 }
 
+void TrackingScore::time(const TruePerson& person, bool reported, double stamp) {
+  bool& in_view = in_view_.try_emplace(person.id, false).first->second;
+  const bool came = person.visible && !in_view;
+  in_view = person.visible;
+  if (came) waiting_[person.id] = stamp;
+  const auto waiting = waiting_.find(person.id);
+  if (waiting == waiting_.end()) return;
+  if (person.visible && reported) latency_.add(stamp - waiting->second);
+  if (!person.visible || reported) waiting_.erase(waiting);
+}
+
 double TrackingScore::longestGhost() const {
   double longest = longest_ghost_;
   for (const auto& [id, life] : lives_) {
@@ -89,6 +103,8 @@ void TrackingScore::nextRun() {
   longest_ghost_ = longestGhost();
   lives_.clear();
   report_of_.clear();
+  waiting_.clear();
+  in_view_.clear();
 }
 
 }  // namespace sarn_tests

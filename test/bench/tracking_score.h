@@ -50,6 +50,10 @@ class TrackingScore {
   [[nodiscard]] double velocityRmseSteadyTurning() const { return rms(steady_turning_); }
   /// Longest time that a report which was never right went on [s].
   [[nodiscard]] double longestGhost() const;
+  /// Mean time [s] from the moment that somebody comes into view until they are reported.
+  [[nodiscard]] double meanLatency() const { return ratio(latency_.sum, latency_.count); }
+  /// Report of each true person who had one at the last moment.
+  [[nodiscard]] const std::map<int, std::uint64_t>& lastMatches() const { return last_matches_; }
   [[nodiscard]] int moments() const { return static_cast<int>(right_ + missed_); }
 
  private:
@@ -61,6 +65,7 @@ class TrackingScore {
       count += 1.0;
     }
   };
+  void time(const TruePerson& person, bool reported, double stamp);
   struct Life {
     double begin = 0.0;
     double end = 0.0;
@@ -78,6 +83,10 @@ class TrackingScore {
   std::map<int, std::uint64_t> report_of_;  // a true person: who it was reported as last
   std::map<std::uint64_t, Life> lives_;     // reports of this run
   double longest_ghost_ = 0.0;
+  std::map<int, std::uint64_t> last_matches_;
+  std::map<int, double> waiting_;  // who is in view and not reported yet, and since when [s]
+  std::map<int, bool> in_view_;    // at the last moment
+  Squares latency_;
 };
 
 }  // namespace sarn_tests

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "kobuki_sim/body_shape.h"
 #include "sarn_common/angles.h"
 #include "sarn_perception/visibility.h"
 
@@ -24,23 +22,6 @@ Eigen::Vector2d freePlace(const kobuki_sim::StaticMap& map, const Eigen::Vector2
     const auto cell = map.geometry().cellAt(place.x(), place.y());
     if (cell && map.map().at(*cell) == sarn::kMapFree && map.discFree(place, kClearance)) return place;
   }
-}
-
-/// Distance [m] along a ray from `origin` to an ellipse; infinite when it misses.
-double rayToSlice(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
-                  const kobuki_sim::BodySlice& slice, double yaw) {
-  const sarn::Pose2D frame{slice.center.x(), slice.center.y(), yaw};
-  const Eigen::Vector2d scale(1.0 / slice.along, 1.0 / slice.across);
-  const Eigen::Vector2d o = (sarn::inverse(frame) * origin).cwiseProduct(scale);
-  const Eigen::Vector2d d = (sarn::Pose2D{0.0, 0.0, -yaw} * direction).cwiseProduct(scale);
-  const double a = d.squaredNorm();
-  const double b = o.dot(d);
-  const double c = o.squaredNorm() - 1.0;
-  const double inside = b * b - a * c;
-  const double none = std::numeric_limits<double>::infinity();
-  if (inside < 0.0) return none;
-  const double t = (-b - std::sqrt(inside)) / a;
-  return t > 0.0 ? t : none;
 }
 
 }  // namespace
@@ -112,50 +93,21 @@ const sarn::Pose2D& LocalizationError::advance(double dt) {
   return error_;
 }
 
-sarn_perception::PlanarScan Lidar::scan(const kobuki_sim::World& world) {
-  struct Slice {
-    kobuki_sim::BodySlice slice;
-    double yaw = 0.0;
-  };
-  std::vector<Slice> slices;
-  for (const auto& person : world.people()) {
-    if (!person.present) continue;
-    for (const auto& part : kobuki_sim::walkingBody(person)) {
-      if (part.bottom <= kHeight && kHeight <= part.top) slices.push_back({part.at(kHeight), part.yaw});
-    }
-  }
-  sarn_perception::PlanarScan scan;
-  const double increment = 2.0 * sarn::kPi / beams_;
-  scan.angle_min = static_cast<float>(-sarn::kPi);
-  scan.angle_increment = static_cast<float>(increment);
-  scan.angle_max = static_cast<float>(-sarn::kPi + increment * (beams_ - 1));
-  scan.range_min = 0.15F;
-  scan.range_max = static_cast<float>(kRangeMax);
-  const sarn::Pose2D& pose = world.robotPose();
-  for (int i = 0; i < beams_; ++i) {
-    const double bearing = pose.theta - sarn::kPi + increment * i;
-    const Eigen::Vector2d direction(std::cos(bearing), std::sin(bearing));
-    double range = std::numeric_limits<double>::infinity();
-    if (const auto hit = world.map().rayCast(pose.position(), direction, kRangeMax)) range = hit->distance;
-    for (const Slice& slice : slices) {
-      range = std::min(range, rayToSlice(pose.position(), direction, slice.slice, slice.yaw));
-    }
-    range += kNoise * random_.normal();
-    scan.ranges.push_back(range <= kRangeMax ? static_cast<float>(range)
-                                             : std::numeric_limits<float>::infinity());
-  }
-  return scan;
+sarn_perception::PlanarScan planarScan(const kobuki_sim::LidarScan& scan) {
+  sarn_perception::PlanarScan planar;
+  planar.angle_min = static_cast<float>(scan.angle_min);
+  planar.angle_increment = static_cast<float>(scan.angle_increment);
+  planar.angle_max = static_cast<float>(scan.angle_min + scan.angle_increment *
+                                                             (static_cast<double>(scan.ranges.size()) - 1.0));
+  planar.range_min = static_cast<float>(scan.range_min);
+  planar.range_max = static_cast<float>(scan.range_max);
+  planar.ranges = scan.ranges;
+  return planar;
 }
 
 sarn_perception::CameraCalibration calibrationOf(const kobuki_sim::DepthCameraParams& params) {
-  sarn_perception::CameraCalibration calibration;
-  calibration.width = params.width;
-  calibration.height = params.height;
-  calibration.distortion_model = "plumb_bob";
-  calibration.d.assign(5, 0.0);
-  calibration.k = {params.fx, 0.0, params.cx, 0.0, params.fy, params.cy, 0.0, 0.0, 1.0};
-  calibration.p = {params.fx, 0.0, params.cx, 0.0, 0.0, params.fy, params.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return calibration;
+  return sarn_perception::pinholeCalibration(params.width, params.height,
+                                             {params.fx, params.fy, params.cx, params.cy});
 }
 
 sarn_perception::DepthImageView viewOf(const kobuki_sim::DepthImage& image) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kobuki_sim/depth_camera.h"
+#include "kobuki_sim/lidar.h"
 #include "kobuki_sim/random.h"
 #include "kobuki_sim/world.h"
 #include "sarn_perception/depth_to_scan.h"
@@ -46,20 +47,8 @@ class LocalizationError {
   bool started_ = false;
 };
 
-/// A 2D lidar at shin height in the robot's middle: exact ranges to walls and legs, plus noise.
-class Lidar {
- public:
-  Lidar(int beams, std::uint64_t seed) : beams_(beams), random_(seed, "lidar") {}
-  [[nodiscard]] sarn_perception::PlanarScan scan(const kobuki_sim::World& world);
-
-  static constexpr double kHeight = 0.30;    // [m]
-  static constexpr double kRangeMax = 12.0;  // [m]
-  static constexpr double kNoise = 0.015;    // [m]
-
- private:
-  int beams_;
-  kobuki_sim::RandomStream random_;
-};
+/// A scan of the simulated lidar as the tracker takes it.
+[[nodiscard]] sarn_perception::PlanarScan planarScan(const kobuki_sim::LidarScan& scan);
 
 [[nodiscard]] sarn_perception::CameraCalibration calibrationOf(const kobuki_sim::DepthCameraParams& params);
 [[nodiscard]] sarn_perception::DepthImageView viewOf(const kobuki_sim::DepthImage& image);

@@ -163,6 +163,12 @@ std::vector<std::vector<std::size_t>> BodyDetector::clusters() {
   return clusters;
 }
 
+double BodyDetector::cutOff(const Eigen::Vector2d& middle, const PinholeCamera& camera) {
+  const double bearing = std::atan2(middle.y(), middle.x());
+  const double room = std::min(camera.bearing_left - bearing, bearing - camera.bearing_right) * middle.norm();
+  return std::clamp(0.5 * kTorsoWidth - room, 0.0, 0.5 * kTorsoWidth);
+}
+
 void BodyDetector::addBodies(const std::vector<std::size_t>& cluster, const View& view,
                              const Background& background, const sarn::Pose2D& map_from_camera,
                              std::vector<Body>& bodies) const {
@@ -203,7 +209,7 @@ void BodyDetector::addBodies(const std::vector<std::size_t>& cluster, const View
     const Eigen::Vector2d front = (own.sum / static_cast<float>(own.count)).cast<double>();
     Body body;
     body.position = front * (1.0 + params_.depth_offset / front.norm());
-    body.sigma = 0.5 * noise(range);
+    body.sigma = std::hypot(0.5 * noise(range), cutOff(body.position, view.camera));
     body.confidence = parts == 1 ? 1.0 : 0.5;
     if (background.unknown(map_from_camera * body.position)) body.confidence *= params_.unknown_confidence;
     bodies.push_back(body);

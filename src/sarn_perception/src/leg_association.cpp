@@ -20,7 +20,7 @@ double separation(const std::vector<Leg>& legs, std::size_t a, std::size_t b) {
 
 }  // namespace
 
-Fit detectionFit(const PersonFilter& person, const Eigen::Vector2d& position, double sigma, double age,
+Fit detectionFit(const WalkingFilter& person, const Eigen::Vector2d& position, double sigma, double age,
                  const TrackerParams& params) {
   const Eigen::Matrix2d covariance = person.innovationCovariance(sigma, age);
   const Eigen::Vector2d innovation = position - person.positionBefore(age);
@@ -31,7 +31,7 @@ Fit detectionFit(const PersonFilter& person, const Eigen::Vector2d& position, do
   return fit;
 }
 
-LegShares shareLegs(const std::vector<const PersonFilter*>& people, const std::vector<Leg>& legs,
+LegShares shareLegs(const std::vector<const WalkingFilter*>& people, const std::vector<Leg>& legs,
                     const std::vector<std::size_t>& available, double age, const TrackerParams& params) {
   LegShares shares;
   shares.of_person.resize(people.size());

@@ -12,6 +12,7 @@ namespace sarn_perception {
 namespace {
 
 constexpr std::size_t kMaxGap = 3;               // [beams] without a return inside a cluster
+constexpr double kInFront = 0.10;                // [m] nearer than a leg: hides what is beside it
 constexpr double kMeanDepth = 0.25 * sarn::kPi;  // of a visible half circle, in radii behind its front
 
 Eigen::Vector2d onRay(double range, double bearing) {
@@ -113,6 +114,23 @@ std::vector<LegDetector::Cluster> LegDetector::clusters(const std::vector<Point>
   return clusters;
 }
 
+bool LegDetector::cutOff(const Cluster& cluster, const RangeProfile& profile) {
+  const auto beams = static_cast<std::ptrdiff_t>(profile.ranges.size());
+  const bool turn =
+      profile.angle_increment * static_cast<double>(beams) > 2.0 * sarn::kPi - 2.0 * profile.angle_increment;
+  const auto hides = [&](const Point& edge, std::ptrdiff_t step) {
+    for (std::ptrdiff_t i = 1; i <= static_cast<std::ptrdiff_t>(kMaxGap); ++i) {
+      std::ptrdiff_t beam = static_cast<std::ptrdiff_t>(edge.beam) + step * i;
+      if (!turn && (beam < 0 || beam >= beams)) return true;
+      beam = (beam + beams) % beams;
+      const auto range = static_cast<double>(profile.ranges[static_cast<std::size_t>(beam)]);
+      if (range > 0.0 && range < edge.range - kInFront) return true;
+    }
+    return false;
+  };
+  return hides(cluster.front(), -1) || hides(cluster.back(), 1);
+}
+
 void LegDetector::addLegs(const Cluster& cluster, const RangeProfile& profile, const Background& background,
                           const sarn::Pose2D& map_from_sensor, std::vector<Leg>& legs) const {
   double range = 0.0;
@@ -126,6 +144,7 @@ void LegDetector::addLegs(const Cluster& cluster, const RangeProfile& profile, c
   const auto count = static_cast<double>(cluster.size());
   if (count < std::max(1.0, params_.min_share * expected)) return;
   const std::size_t parts = extent > params_.max_width + sigma ? 2 : 1;
+  const bool cut = cutOff(cluster, profile);
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t begin = part * cluster.size() / parts;
     const std::size_t end = (part + 1) * cluster.size() / parts;
@@ -137,7 +156,10 @@ void LegDetector::addLegs(const Cluster& cluster, const RangeProfile& profile, c
     Leg leg;
     const double behind = 0.5 * params_.leg_diameter * kMeanDepth;
     leg.position = front * (1.0 + behind / front.norm());
-    leg.sigma = std::hypot(sigma / std::sqrt(static_cast<double>(end - begin)), 0.3 * spacing);
+    const double seen = (cluster[end - 1].seen.position - cluster[begin].seen.position).norm() + spacing;
+    const double hidden = cut ? std::max(0.0, 0.5 * (params_.leg_diameter - seen)) : 0.0;
+    leg.sigma =
+        std::hypot(std::hypot(sigma / std::sqrt(static_cast<double>(end - begin)), 0.3 * spacing), hidden);
     // One or two beams may be anything.
     leg.confidence = std::min(1.0, static_cast<double>(end - begin) / 3.0);
     if (background.unknown(map_from_sensor * leg.position)) leg.confidence *= params_.unknown_confidence;

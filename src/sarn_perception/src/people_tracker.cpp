@@ -44,8 +44,12 @@ void PeopleTracker::advance(double stamp) {
     const double unseen =
         params_.standing_density + walking * (params_.walking_density - params_.standing_density);
     const bool seen = now_ - track.last_seen < kSeen;
-    const double density = seen ? params_.acceleration_density : unseen;
-    track.filter.predict(dt, density);
+    if (seen) {
+      track.filter.predict(
+          dt, {params_.steady_density, params_.changing_density, params_.steady_time, params_.changing_time});
+    } else {
+      track.filter.predict(dt, unseen);
+    }
     track.existence *= std::exp(-dt / params_.survival_time);
     if (blocked_ && blocked_(track.filter.position())) track.filter.halt();
   }
@@ -76,6 +80,7 @@ void PeopleTracker::see(PersonTrack& track, const Eigen::Vector2d& position, dou
   track.last_seen = std::max(track.last_seen, now_ - age);
   ++track.detections;
   ++track.seen_by[static_cast<std::size_t>(detector)];
+  if (detector == Detector::kBodies) track.body_seen = std::max(track.body_seen, now_ - age);
 }
 
 void PeopleTracker::miss(PersonTrack& track, const Look& look) const {
@@ -90,7 +95,7 @@ void PeopleTracker::miss(PersonTrack& track, const Look& look) const {
 void PeopleTracker::giveLegs(const std::vector<Leg>& legs, bool confirmed,
                              std::vector<std::size_t>& available, std::vector<bool>& seen, double age) {
   std::vector<std::size_t> owners;
-  std::vector<const PersonFilter*> people;
+  std::vector<const WalkingFilter*> people;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (tracks_[i].confirmed != confirmed) continue;
     owners.push_back(i);
@@ -103,8 +108,11 @@ void PeopleTracker::giveLegs(const std::vector<Leg>& legs, bool confirmed,
     const Leg& first = legs[own.front()];
     const Leg& last = legs[own.back()];
     const bool pair = own.size() == 2;
+    // Torsos do not swing: beside one, legs tell little of where somebody is.
+    const bool beside_torso = now_ - tracks_[owners[i]].body_seen < kSeen;
+    const double swing = pair ? params_.pair_sigma : params_.leg_sigma;
     const double sigma =
-        std::hypot(pair ? params_.pair_sigma : params_.leg_sigma, 0.5 * (first.sigma + last.sigma));
+        std::hypot(beside_torso ? params_.swing_factor * swing : swing, 0.5 * (first.sigma + last.sigma));
     const double ratio =
         weighted(pair ? params_.pair_ratio : params_.leg_ratio, 0.5 * (first.confidence + last.confidence));
     see(tracks_[owners[i]], 0.5 * (first.position + last.position), sigma, ratio, age, Detector::kLegs);
@@ -201,7 +209,7 @@ bool PeopleTracker::nearSomebody(const Eigen::Vector2d& position, double age) co
 void PeopleTracker::found(const Eigen::Vector2d& position, double sigma, double ratio, double age,
                           Detector detector) {
   if (nearSomebody(position, age)) return;
-  PersonTrack track{next_id_++, PersonFilter(position, sigma, params_.initial_speed_sigma)};
+  PersonTrack track{next_id_++, WalkingFilter(position, sigma, params_.initial_speed_sigma)};
   track.existence = existenceAfterDetection(params_.birth_existence, ratio);
   track.first_seen = track.last_seen = now_ - age;
   track.detections = 1;

@@ -14,8 +14,8 @@ std::vector<std::size_t> allOf(const std::vector<Leg>& legs) {
 
 TEST(LegAssociation, givesEachOfTwoNeighboursTheirOwnLegs) {
   // Side by side 0.6 m apart, in step: my left leg is nearer to your right leg than to my other one.
-  const PersonFilter me({0.0, 0.0}, 0.05, 0.5);
-  const PersonFilter you({0.0, 0.6}, 0.05, 0.5);
+  const WalkingFilter me({0.0, 0.0}, 0.05, 0.5);
+  const WalkingFilter you({0.0, 0.6}, 0.05, 0.5);
   const std::vector<Leg> legs{
       {{0.22, 0.09}, 0.01}, {{-0.22, -0.09}, 0.01}, {{-0.22, 0.69}, 0.01}, {{0.22, 0.51}, 0.01}};
   const LegShares shares = shareLegs({&me, &you}, legs, allOf(legs), 0.0, {});
@@ -26,7 +26,7 @@ TEST(LegAssociation, givesEachOfTwoNeighboursTheirOwnLegs) {
 }
 
 TEST(LegAssociation, leavesFarLegsAlone) {
-  const PersonFilter me({0.0, 0.0}, 0.05, 0.5);
+  const WalkingFilter me({0.0, 0.0}, 0.05, 0.5);
   const std::vector<Leg> legs{
       {{0.1, 0.0}, 0.01}, {{1.5, 0.0}, 0.01}, {{-0.1, 0.0}, 0.01}, {{0.0, 0.05}, 0.01}};
   const LegShares shares = shareLegs({&me}, legs, allOf(legs), 0.0, {});
@@ -35,7 +35,7 @@ TEST(LegAssociation, leavesFarLegsAlone) {
 }
 
 TEST(LegAssociation, looksWhereThePersonWasThen) {
-  PersonFilter me({0.0, 0.0}, 0.02, 1.0);
+  WalkingFilter me({0.0, 0.0}, 0.02, 1.0);
   for (int i = 1; i <= 20; ++i) {
     me.predict(0.1, 0.01);
     me.update({0.15 * i, 0.0}, 0.02, 0.0);  // 1.5 m/s

@@ -38,7 +38,8 @@ TEST(Parameters, shippedTrackerFilesNameEveryField) {
   for (const char* section : {"background", "legs", "bodies", "tracker"}) file.remove(section);
   expectFixture<PeopleTrackerParams>(file, "people_tracker.yaml");
   const YAML::Node lidar = YAML::LoadFile("config/people_tracker_lidar.yaml");
-  EXPECT_EQ(lidar.size(), 1U);
+  EXPECT_EQ(lidar.size(), 2U);
+  EXPECT_FALSE(lidar["use_bodies"].as<bool>());
   expectFixture<LegParams>(lidar["legs"], "people_tracker_lidar.yaml");
 }
 

@@ -58,6 +58,8 @@ class BodyDetector {
   [[nodiscard]] std::size_t cellOf(const Eigen::Vector3f& point) const;
   void removeBackground(const Background& background, const sarn::Pose2D& map_from_camera);
   [[nodiscard]] std::vector<std::vector<std::size_t>> clusters();
+  /// How far [m] the middle of a torso at the image's edge may lie outside of what is seen of it.
+  [[nodiscard]] static double cutOff(const Eigen::Vector2d& middle, const PinholeCamera& camera);
   void addBodies(const std::vector<std::size_t>& cluster, const View& view, const Background& background,
                  const sarn::Pose2D& map_from_camera, std::vector<Body>& bodies) const;
   [[nodiscard]] double noise(double range) const {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "sarn_perception/leg.h"
-#include "sarn_perception/person_filter.h"
 #include "sarn_perception/tracking_params.h"
+#include "sarn_perception/walking_filter.h"
 
 namespace sarn_perception {
 
@@ -21,14 +21,14 @@ struct Fit {
   double cost = 0.0;
   bool gated = true;
 };
-[[nodiscard]] Fit detectionFit(const PersonFilter& person, const Eigen::Vector2d& position, double sigma,
+[[nodiscard]] Fit detectionFit(const WalkingFilter& person, const Eigen::Vector2d& position, double sigma,
                                double age, const TrackerParams& params);
 
 /// Gives legs to people who are known already: each has room for two, and all together get what is most
 /// likely (the joint view of a person's legs of Leigh, Pineau, Olmedo and Zhang 2015, "Person Tracking and
 /// Following with 2D Laser Scanners"). So the next person's leg is not paired with mine when we walk side by
 /// side. `age` [s] of the legs.
-[[nodiscard]] LegShares shareLegs(const std::vector<const PersonFilter*>& people,
+[[nodiscard]] LegShares shareLegs(const std::vector<const WalkingFilter*>& people,
                                   const std::vector<Leg>& legs, const std::vector<std::size_t>& available,
                                   double age, const TrackerParams& params);
 

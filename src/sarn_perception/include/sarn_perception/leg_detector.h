@@ -54,6 +54,8 @@ class LegDetector {
   [[nodiscard]] bool together(const Point& a, const Point& b, double increment) const;
   [[nodiscard]] std::vector<Cluster> clusters(const std::vector<Point>& points,
                                               const RangeProfile& profile) const;
+  /// Whether the scan ends beside a cluster, or something nearer hides what is there.
+  [[nodiscard]] static bool cutOff(const Cluster& cluster, const RangeProfile& profile);
   void addLegs(const Cluster& cluster, const RangeProfile& profile, const Background& background,
                const sarn::Pose2D& map_from_sensor, std::vector<Leg>& legs) const;
 

@@ -8,9 +8,9 @@
 
 #include "sarn_common/pose2d.h"
 #include "sarn_perception/leg.h"
-#include "sarn_perception/person_filter.h"
 #include "sarn_perception/range_profile.h"
 #include "sarn_perception/tracking_params.h"
+#include "sarn_perception/walking_filter.h"
 
 namespace sarn_perception {
 
@@ -19,18 +19,19 @@ enum class Detector : std::size_t { kLegs = 0, kBodies = 1 };
 /// Somebody who is there with probability `existence`.
 struct PersonTrack {
   std::uint64_t id = 0;  // never used again
-  PersonFilter filter;
+  WalkingFilter filter;
   double existence = 0.0;        // [0, 1]
   bool confirmed = false;        // was certain enough once
   double first_seen = 0.0;       // [s]
   double last_seen = 0.0;        // [s]
   int detections = 0;            // so far
   std::array<int, 2> seen_by{};  // detections by each detector
+  double body_seen = -1e9;       // [s] when its torso was seen last
 };
 
 /// Follows people in a frame that does not move with the robot (odom), from detections of several detectors.
 ///
-/// Each person is a Kalman filter of constant velocity and a probability of existence (existence.h).
+/// Each person is a filter of walking people (walking_filter.h) and a probability of existence (existence.h).
 /// Detections are given to people by global nearest neighbour, first to those who are certain; what is left
 /// begins new tracks. Nobody is less likely to exist because they were not looked at: only a sensor that saw
 /// through the place where they should be is evidence against them.

@@ -13,6 +13,9 @@ class PersonFilter {
   /// At a measured position [m] with its standard deviation [m], at rest up to `speed_sigma` [m/s] an axis.
   PersonFilter(const Eigen::Vector2d& position, double position_sigma, double speed_sigma);
 
+  PersonFilter(const Eigen::Vector4d& state, const Eigen::Matrix4d& covariance)
+      : state_(state), covariance_(covariance) {}
+
   /// Goes `dt` [s] >= 0 ahead; `density` [m^2/s^3] is q.
   void predict(double dt, double density);
   /// Takes in the position [m] that the person had `age` [s] >= 0 ago, with standard deviation `sigma` [m] on
@@ -25,6 +28,7 @@ class PersonFilter {
 
   [[nodiscard]] Eigen::Vector2d position() const { return state_.head<2>(); }  // [m]
   [[nodiscard]] Eigen::Vector2d velocity() const { return state_.tail<2>(); }  // [m/s]
+  [[nodiscard]] const Eigen::Vector4d& state() const { return state_; }
   [[nodiscard]] const Eigen::Matrix4d& covariance() const { return covariance_; }
   /// Standard deviation [m] of the position along its least certain direction.
   [[nodiscard]] double positionSigma() const;

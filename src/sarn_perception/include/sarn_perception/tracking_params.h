@@ -100,15 +100,18 @@ struct BodyParams {
 
 /// Who is there, and where they go (PeopleTracker).
 struct TrackerParams {
-  double acceleration_density =
-      0.80;                        // [m^2/s^3] power of white acceleration, of who is seen: may start or turn
+  double steady_density = 0.1;     // [m^2/s^3] power of white acceleration, of who is seen and walks steadily
+  double changing_density = 15.0;  // [m^2/s^3] of who is seen starting, stopping or turning
+  double steady_time = 1.5;        // [s] mean time of steady walking
+  double changing_time = 0.3;      // [s] mean time of a change
   double walking_density = 0.15;   // [m^2/s^3] of who walked when last seen
   double standing_density = 0.01;  // [m^2/s^3] of who stood when last seen
   double walking_speed = 0.5;      // [m/s] from here on a person counts as walking, in the two above
   double initial_speed_sigma = 0.6;    // [m/s] on each axis, of a new track
-  double pair_sigma = 0.10;            // [m] of a person's middle between two legs, on each axis
+  double pair_sigma = 0.06;            // [m] of a person's middle between two legs, on each axis
   double leg_sigma = 0.20;             // [m] of a person's middle when one leg is seen
-  double body_sigma = 0.04;            // [m] of a person's middle from the torso
+  double swing_factor = 2.5;           // [1] on the two above, of who is seen by the torso too
+  double body_sigma = 0.03;            // [m] of a person's middle from the torso
   double gait_sigma = 0.16;            // [m] of a leg about a person's middle, in the association
   double gate = 9.21;                  // squared Mahalanobis distance; 99 % in two dimensions
   double max_gate_distance = 0.9;      // [m] however uncertain a track is
@@ -132,13 +135,17 @@ struct TrackerParams {
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {
-    v("acceleration_density", p.acceleration_density, {1e-6, 100.0});
+    v("steady_density", p.steady_density, {1e-6, 100.0});
+    v("changing_density", p.changing_density, {1e-6, 1000.0});
+    v("steady_time", p.steady_time, {0.01, 1000.0});
+    v("changing_time", p.changing_time, {0.01, 1000.0});
     v("walking_density", p.walking_density, {1e-6, 100.0});
     v("standing_density", p.standing_density, {1e-6, 100.0});
     v("walking_speed", p.walking_speed, {0.01, 5.0});
     v("initial_speed_sigma", p.initial_speed_sigma, {0.0, 10.0});
     v("pair_sigma", p.pair_sigma, {0.001, 1.0});
     v("leg_sigma", p.leg_sigma, {0.001, 1.0});
+    v("swing_factor", p.swing_factor, {1.0, 100.0});
     v("body_sigma", p.body_sigma, {0.001, 1.0});
     v("gait_sigma", p.gait_sigma, {0.001, 1.0});
     v("gate", p.gate, {0.1, 100.0});
