@@ -105,7 +105,7 @@ class ScanNodeTest : public testing::Test {
   }
   void move() {
     truth_ = sarn::advance(truth_, {0.5, 0.4}, kStep);
-    odometry_ = sarn::advance(odometry_, {0.51, 0.403}, kStep);
+    odometry_ = sarn::advance(odometry_, odometry_twist_, kStep);
     tick(kStep);
     publishOdometry(now_);
   }
@@ -122,6 +122,7 @@ class ScanNodeTest : public testing::Test {
            std::abs(sarn::angleDifference(found.theta, truth_.theta));
   }
   static constexpr sarn::Pose2D kSensor{-0.087, 0.0475, 0.0};
+  sarn::Twist2D odometry_twist_{0.51, 0.403};  // of the robot's 0.5 m/s and 0.4 rad/s
   std::string node_;
   WallDistance walls_;
   sarn::Pose2D truth_{4.0, 1.3, 0.0};

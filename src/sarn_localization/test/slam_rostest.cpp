@@ -6,15 +6,16 @@
 
 #include <limits>
 
+#include "sarn_common_ros/call_service.h"
 #include "scan_node_fixture.h"
 
 namespace sarn_localization {
 namespace {
 
-/// The node's map begins at kStart, by its parameters initial_pose_*: poses in it are the room's.
+/// The node's map begins at the robot's start, by its parameters initial_pose_*: poses in it are the room's.
 class SlamNodeTest : public ScanNodeTest {
  protected:
-  SlamNodeTest() : ScanNodeTest("slam") {}
+  SlamNodeTest() : ScanNodeTest("slam") { odometry_twist_ = {0.503, 0.402}; }
 
   void SetUp() override {
     maps_ = nh_.subscribe<nav_msgs::OccupancyGrid>(
@@ -47,6 +48,11 @@ class SlamNodeTest : public ScanNodeTest {
 };
 
 TEST_F(SlamNodeTest, drawsTheRoomAndKnowsWhereTheRobotIs) {
+  ASSERT_TRUE(await([this] {  // the first scan is of the start
+    scan_.publish(scanNow());
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
+    return map_from_odom_.has_value();
+  }));
   for (int i = 0; i < 200; ++i) drive();  // one and a quarter rounds
   ASSERT_TRUE(await([this] { return map_ && map_from_odom_; }));
   EXPECT_EQ(map_->header.frame_id, "map");
@@ -56,7 +62,7 @@ TEST_F(SlamNodeTest, drawsTheRoomAndKnowsWhereTheRobotIs) {
   EXPECT_TRUE(await([this] { return map_from_odom_->header.stamp >= now_ + ros::Duration(0.19); }))
       << "the newest odometry can be looked up in map";
   nav_msgs::GetMap call;
-  ASSERT_TRUE(ros::service::call("dynamic_map", call));
+  ASSERT_TRUE(sarn::callService("dynamic_map", call));
   EXPECT_GE(call.response.map.data.size(), map_->data.size()) << "as large as the last one, or grown since";
   EXPECT_EQ(width_, map_->info.width);
 }

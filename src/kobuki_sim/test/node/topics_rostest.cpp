@@ -77,7 +77,7 @@ TEST_F(Topics, theClockTicksEveryStepAndNeverGoesBack) {
 TEST_F(Topics, scansOfTheLidarComeAtItsFrequencyInItsFrame) {
   const Recorder<sensor_msgs::LaserScan> scans("/scan");
   ASSERT_TRUE(scans.awaitConnection());
-  step(100);
+  step(120);
   ASSERT_TRUE(scans.awaitCount(10));
   for (const double difference : stampDifferences(scans.messages)) EXPECT_NEAR(difference, 0.1, 1e-9);
   for (const auto& scan : scans.messages) {
