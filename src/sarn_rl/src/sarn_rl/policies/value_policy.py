@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Optional, Tuple
 
 import numpy as np
@@ -12,12 +13,14 @@ from sarn_rl.joint_state import JointState
 from sarn_rl.lookahead import Lookahead, Prospect
 from sarn_rl.networks.base import ValueNetwork
 from sarn_rl.networks.mirror_mean import MirrorMean
+from sarn_rl.networks.sarl import SarlNetwork
 from sarn_rl.observation import Observation, mirrored
 from sarn_rl.policies.base import Policy
 
 # Worlds whose look-ahead goes through the network together: larger batches fall out of the cache.
 CHUNK = 8
-# Actions whose mirror image is looked at too, where values are means over both: the best by the first look.
+# Actions of SARL whose mirror image is looked at too, where values are means over both: the best by the first
+# look. The other networks are quick and worse: all of their actions are.
 SECOND_LOOK = 27
 
 
@@ -27,12 +30,17 @@ class ValuePolicy(Policy):
     Args:
         network: V.
         lookahead: R and s'.
-        second_look: for how many actions the mirror image counts, if V is a mean over both. The others, which
-            were worse at the first look, are worth no more than the worst of these.
+        second_look: for how many actions the mirror image counts, if V is a mean over both; None: SECOND_LOOK
+            or all. The others, which were worse at the first look, are worth no more than the worst of these.
     """
 
-    def __init__(self, network: ValueNetwork, lookahead: Lookahead, second_look: int = SECOND_LOOK) -> None:
-        self._network, self._second_look = network, second_look
+    def __init__(
+        self, network: ValueNetwork, lookahead: Lookahead, second_look: Optional[int] = None
+    ) -> None:
+        self._network = network
+        if second_look is None:
+            second_look = SECOND_LOOK if isinstance(_inner(network), SarlNetwork) else sys.maxsize
+        self._second_look = second_look
         self._lookahead = lookahead
         self.kinematics = lookahead.kinematics
 
@@ -72,6 +80,10 @@ class ValuePolicy(Policy):
         result = np.minimum(worth, both[rows, best].min(axis=1, keepdims=True))
         result[rows, best] = both[rows, best]
         return result
+
+
+def _inner(network: ValueNetwork) -> ValueNetwork:
+    return network.inner if isinstance(network, MirrorMean) else network
 
 
 def _worth(prospect: Prospect, later: np.ndarray) -> np.ndarray:

@@ -71,7 +71,7 @@ class Trainer:
         self._learner = Learner(self._network, params.learning)
         self._episodes = 0
         self._next_case = params.teacher.cases or params.imitation.episodes
-        self._best = (-1.0, -np.inf)
+        self._best = (-np.inf, -1.0)
         self._seconds: Dict[str, float] = {}
         self._cpu_seconds: Dict[str, float] = {}
         self._recent: Deque[Finished] = deque(maxlen=200)
@@ -221,7 +221,7 @@ class Trainer:
             f"validation after {self._episodes} episodes: success {result['success']:.2f}, collision "
             f"{result['collision']:.2f}, time {time_s} s, discomfort {result['discomfort']:.3f}"
         )
-        score = (result["success"], result["mean_return"])
+        score = (result["mean_return"], result["success"])
         if score > self._best:
             self._best = score
             self._save_network(BEST_FILE, result)
