@@ -22,6 +22,7 @@ namespace sarn_localization {
 namespace {
 
 constexpr std::size_t kFewestBeams = 5;     // a scan with fewer returns says nothing
+constexpr double kLeastCoverage = 0.3;      // [1] in less of a scan than this there may be nothing but people
 constexpr std::size_t kPolled = 20;         // particles that the distance filter asks
 constexpr double kLeastRandomShare = 0.15;  // [1] less is noise of the averages
 constexpr double kGreatestRandomShare =
@@ -93,9 +94,9 @@ struct MonteCarloLocalizer::Impl {
     if (!params.do_beamskip) return scan;
     std::vector<sarn::Pose2D> belief = poll();
     for (sarn::Pose2D& pose : belief) pose = pose * motion;
-    return withoutShortBeams(
-        scan, belief, *walls,
-        {params.beam_skip_distance, params.beam_skip_threshold, params.beam_skip_error_threshold});
+    return withoutShortBeams(scan, belief, *walls,
+                             {params.beam_skip_distance, params.beam_skip_threshold,
+                              scan.coverage < kLeastCoverage ? 1.0 : params.beam_skip_error_threshold});
   }
 
   void spreadOverMap(const ScanBeams& scan) {
@@ -125,7 +126,8 @@ struct MonteCarloLocalizer::Impl {
     const ScanLikelihood likelihood(params, anywhere ? scan : withoutPeople(scan, motion));
     const MotionNoise noise{params.odom_alpha1, params.odom_alpha2, params.odom_alpha3, params.odom_alpha4};
     const double explained = filter.update(motionBelief(motion, noise), likelihood, *walls);
-    const double share = likelihood.scan().beams.empty() ? 0.0 : monitor.add(explained);
+    const bool tells = !likelihood.scan().beams.empty() && scan.coverage >= kLeastCoverage;
+    const double share = tells ? monitor.add(explained) : 0.0;
     addRandomParticles(share, likelihood.scan());
 
     estimate = heaviestCluster(filter.weightedPoses());

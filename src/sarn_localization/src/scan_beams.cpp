@@ -28,6 +28,9 @@ ScanBeams selectBeams(const PlanarScan& scan, const sarn::Pose2D& base_from_sens
   const std::vector<std::size_t> usable = usableBeams(scan, limits);
   const std::size_t count = std::min(usable.size(), limits.max_beams);
   result.beams.reserve(count);
+  if (!scan.ranges.empty()) {
+    result.coverage = static_cast<double>(usable.size()) / static_cast<double>(scan.ranges.size());
+  }
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = usable[(2 * k + 1) * usable.size() / (2 * count)];
     const double angle =

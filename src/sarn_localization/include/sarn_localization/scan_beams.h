@@ -29,6 +29,7 @@ struct Beam {
 struct ScanBeams {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // [m] of the sensor, in base
   std::vector<Beam> beams;
+  double coverage = 1.0;  // [1] share of the scan's beams that are returns
 };
 
 struct BeamLimits {
