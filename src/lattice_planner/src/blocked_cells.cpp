@@ -78,14 +78,14 @@ void BlockedCells::spreadAlongRows() {
 }
 
 void BlockedCells::spreadAcrossRows() {
-  const auto orRow = [this](std::size_t to, std::size_t from) {
+  const auto or_row = [this](std::size_t to, std::size_t from) {
     for (std::size_t i = 0; i < words_; ++i) near_[to * words_ + i] |= near_[from * words_ + i];
   };
   doubling(reach_, [&](std::size_t step) {
-    for (std::size_t y = rows_; y-- > step;) orRow(y, y - step);
+    for (std::size_t y = rows_; y-- > step;) or_row(y, y - step);
   });
   doubling(reach_, [&](std::size_t step) {
-    for (std::size_t y = 0; y + step < rows_; ++y) orRow(y, y + step);
+    for (std::size_t y = 0; y + step < rows_; ++y) or_row(y, y + step);
   });
 }
 

@@ -36,9 +36,9 @@ class Search {
   [[nodiscard]] Outcome run();
   void expand(StateId id);
   struct Successor {
-    const MotionPrimitive* action;
+    const MotionPrimitive* action = nullptr;
     SearchState state;  // costs of cells not yet included
-    std::uint64_t key;
+    std::uint64_t key = 0;
   };
   void tryAction(const SearchState& from, const Successor& successor, double c, double s);
   [[nodiscard]] float keyOf(const SearchState& state) const;

@@ -71,8 +71,12 @@ class GridView {
  public:
   explicit GridView(const Grid& grid) : grid_(grid) {}
   [[nodiscard]] double resolution() const { return static_cast<double>(grid_.getResolution()); }
-  [[nodiscard]] double centerX(int x) const { return static_cast<double>(grid_.idx2x(x)); }
-  [[nodiscard]] double centerY(int y) const { return static_cast<double>(grid_.idx2y(y)); }
+  [[nodiscard]] double centerX(int x) const {
+    return static_cast<double>(grid_.getXMin()) + (x + 0.5) * resolution();
+  }
+  [[nodiscard]] double centerY(int y) const {
+    return static_cast<double>(grid_.getYMin()) + (y + 0.5) * resolution();
+  }
   [[nodiscard]] int cellX(double x) const { return grid_.x2idx(static_cast<float>(x)); }
   [[nodiscard]] int cellY(double y) const { return grid_.y2idx(static_cast<float>(y)); }
   /// MRPT's cells hold the probability that they are free; outside it says one half.
