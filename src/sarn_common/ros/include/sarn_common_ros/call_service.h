@@ -8,8 +8,8 @@
 namespace sarn {
 
 /// Calls a ROS service; whether it answered. Instead of ros::service::call: there the server hangs up right
-/// after its answer, and roscpp now and then (1 of some 2,000 calls) sees the hang-up first and throws the
-/// answer away. Here the client hangs up, after it has read.
+/// after its answer, and roscpp now and then sees the hang-up first and throws the answer away. Here the
+/// client hangs up, after it has read.
 template <class Service>
 [[nodiscard]] bool callService(const std::string& name, Service& service) {
   constexpr bool kPersistent = true;
