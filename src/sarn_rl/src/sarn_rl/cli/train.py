@@ -19,6 +19,7 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("--seed", type=int, help="instead of the configuration's")
     parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint in --out")
     parser.add_argument("--begin-with", type=Path, help="checkpoint whose weights to go on from")
+    parser.add_argument("--lessons", type=Path, help="file of lessons that runs of several seeds share")
     parser.set_defaults(run=run)
 
 
@@ -28,5 +29,5 @@ def run(options: argparse.Namespace) -> int:
         if not 0 <= options.seed < 2**32:
             raise ValueError(f"--seed: {options.seed} is not in 0..2^32-1")
         params = dataclasses.replace(params, seed=options.seed)
-    Trainer(params, options.out, options.resume, sys.stderr, options.begin_with).run()
+    Trainer(params, options.out, options.resume, sys.stderr, options.begin_with, options.lessons).run()
     return 0

@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
-from typing import Callable, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import torch
 
 from sarn_rl.actions import Kinematics
-from sarn_rl.checkpoint import save_atomically
+from sarn_rl.checkpoint import CheckpointError, save_atomically
+from sarn_rl.declared import to_dict
 from sarn_rl.envs.cases import case_seed, make_case
 from sarn_rl.envs.worlds import Outcome, Worlds
 from sarn_rl.lookahead import Lookahead
@@ -60,22 +62,49 @@ def demonstrate(params: TrainingParams, lookahead: Lookahead) -> Demonstrations:
     )
 
 
-def taught(params: TrainingParams, cache: Path) -> Demonstrations:
-    """A teacher's values as returns. As transitions they are complete: nothing follows that must be guessed.
+def taught(params: TrainingParams, cache: Path) -> Tuple[Demonstrations, float]:
+    """A teacher's values as returns, and the CPU seconds that they took if they were made before.
 
-    Lessons do not depend on the seed of the training. They are kept in `cache`, so that a run that goes on
-    has them at once.
+    As transitions they are complete: nothing follows that must be guessed. Lessons do not depend on the seed
+    of the training. They are kept in `cache`, so that a run that goes on, or another that is taught alike, has
+    them at once; those of other parameters are made anew.
     """
-    try:
-        kept = torch.load(cache, weights_only=True)
-        states, values = Observation(*(array.numpy() for array in kept["states"])), kept["values"].numpy()
-    except FileNotFoundError:
+    about = taught_by(params)
+    kept = _kept_lessons(cache, about)
+    if kept is None:
+        begin = time.process_time()
         states, values = Teacher(params).lessons(np.random.default_rng(0))
-        arrays = [torch.from_numpy(array) for array in states]
-        save_atomically(cache, {"states": arrays, "values": torch.from_numpy(values)})
+        document = {
+            "about": about,
+            "cpu_seconds": time.process_time() - begin,
+            "states": [torch.from_numpy(array) for array in states],
+            "values": torch.from_numpy(values),
+        }
+        save_atomically(cache, document)
+        before = 0.0
+    else:
+        states, values = Observation(*(array.numpy() for array in kept["states"])), kept["values"].numpy()
+        before = float(kept["cpu_seconds"])
     nothing = np.zeros(len(values), dtype=np.float32)
     transitions = Transitions(*states, states.robot, states.people, values, nothing)
-    return Demonstrations(states, values, transitions, None)
+    return Demonstrations(states, values, transitions, None), before
+
+
+def taught_by(params: TrainingParams) -> Dict[str, Any]:
+    """All parameters that lessons depend on."""
+    parts = ("gamma", "actions", "environment", "teacher")
+    everything = to_dict(params)
+    return {part: everything[part] for part in parts}
+
+
+def _kept_lessons(cache: Path, about: Dict[str, Any]) -> Optional[Dict[str, Any]]:
+    try:
+        kept: Dict[str, Any] = torch.load(cache, weights_only=True)
+    except FileNotFoundError:
+        return None
+    except Exception as error:
+        raise CheckpointError(f"{cache}: cannot be read ({' '.join(str(error).split())[:120]})") from error
+    return kept if kept.get("about") == about else None
 
 
 def step_discount(params: TrainingParams) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 import torch
 
 from sarn_rl.networks.base import ValueNetwork
+from sarn_rl.networks.mirror_mean import MirrorMean
 from sarn_rl.observation import Observation, mirrored
 from sarn_rl.training.params import LearningParams
 from sarn_rl.training.replay import ReplayMemory
@@ -71,15 +72,24 @@ class Learner:
     """Deep V-learning (Chen et al. 2019, algorithm 1): V(s) towards r + gamma V_target(s').
 
     Targets are computed when they are used, never stored. The target network is the running mean of the
-    learned one; it is also the one that acts and is kept, because it changes its mind less.
+    learned one; it also acts, because it changes its mind less. What is kept is a slower mean (Polyak and
+    Juditsky 1992), if params.average_rate asks for one, else the target network.
     """
 
     def __init__(self, network: ValueNetwork, params: LearningParams) -> None:
         self.network = network
-        self.target = copy.deepcopy(network).requires_grad_(False).eval()
+        self.target = _follower(network)
+        self.average = _follower(network) if params.average_rate > 0.0 else self.target
         self._params = params
         self._optimizer = torch.optim.Adam(network.parameters(), lr=params.learning_rate, fused=True)
         self.updates = 0
+
+    @property
+    def acting(self) -> ValueNetwork:
+        """The target network as it is used while learning."""
+        if isinstance(self.target, MirrorMean) and not self._params.mirror_while_learning:
+            return self.target.inner
+        return self.target
 
     def set_learning_rate(self, rate: float) -> None:
         set_learning_rate(self._optimizer, rate)
@@ -99,7 +109,7 @@ class Learner:
             which = random.random(len(places)) < 0.5
             state, after = mirror_half(state, which), mirror_half(after, which)
         with torch.no_grad():
-            later = self.target(*tensors(after))
+            later = self.acting(*tensors(after))
             goal = torch.from_numpy(batch.reward) + torch.from_numpy(batch.discount) * later
         if rehearsed is not None:
             state = joined_observations(state, rehearsed.states)
@@ -123,18 +133,20 @@ class Learner:
         self._follow()
 
     def _follow(self) -> None:
-        with torch.no_grad():
-            for follower, leader in zip(self.target.parameters(), self.network.parameters()):
-                follower.lerp_(leader, self._params.target_rate)
+        _go_towards(self.target, self.network, self._params.target_rate)
+        if self.average is not self.target:
+            _go_towards(self.average, self.network, self._params.average_rate)
 
     def refresh_target(self) -> None:
-        """Makes the target network equal to the learned one."""
+        """Makes the target network and the average equal to the learned one."""
         self.target.load_state_dict(self.network.state_dict())
+        self.average.load_state_dict(self.network.state_dict())
 
     def state(self) -> Dict[str, Any]:
         return {
             "network": self.network.state_dict(),
             "target": self.target.state_dict(),
+            "average": self.average.state_dict(),
             "optimizer": self._optimizer.state_dict(),
             "updates": self.updates,
         }
@@ -142,5 +154,16 @@ class Learner:
     def restore(self, state: Dict[str, Any]) -> None:
         self.network.load_state_dict(state["network"])
         self.target.load_state_dict(state["target"])
+        self.average.load_state_dict(state["average"])
         self._optimizer.load_state_dict(state["optimizer"])
         self.updates = state["updates"]
+
+
+def _follower(network: ValueNetwork) -> ValueNetwork:
+    return copy.deepcopy(network).requires_grad_(False).eval()
+
+
+def _go_towards(follower: ValueNetwork, leader: ValueNetwork, rate: float) -> None:
+    with torch.no_grad():
+        for follows, leads in zip(follower.parameters(), leader.parameters()):
+            follows.lerp_(leads, rate)

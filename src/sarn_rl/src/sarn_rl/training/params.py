@@ -141,9 +141,15 @@ class LearningParams:
         return_steps: n of n-step returns; they end before the next random action.
         learn_from_random_actions: whether a state that a random action left is learned from.
         target_rate: share of the way to the learned network that the target network goes in a step.
+        average_rate: the same of the average of its weights that is validated and kept; 0: the target network is.
+        mirror_while_learning: whether targets and actions are means over the mirror image too while it learns,
+            where the kept network's values are (network.mirror_mean).
         mirror: whether half of the samples are seen in a mirror.
         gradient_clip: largest norm of a gradient.
         validation_episodes: episodes between validations (on the 100 validation cases).
+        selection_cases: cases beyond those of training by which, beside the validation cases, networks are
+            compared from the episode selection_episode on.
+        selection_episode: see above.
         checkpoint_episodes: episodes between checkpoints.
         warmup_episodes: episodes before the first gradient step.
         people: how many, of one training case after the other; none: as in the environment.
@@ -164,9 +170,13 @@ class LearningParams:
     return_steps: int = 1
     learn_from_random_actions: bool = False
     target_rate: float = 0.005
+    average_rate: float = 0.0
+    mirror_while_learning: bool = True
     mirror: bool = True
     gradient_clip: float = 1.0
     validation_episodes: int = 500
+    selection_cases: int = 0
+    selection_episode: int = 0
     checkpoint_episodes: int = 500
     warmup_episodes: int = 0
     people: Tuple[int, ...] = ()
@@ -188,12 +198,12 @@ class LearningParams:
             "checkpoint_episodes",
         )
         found = list(_positive(self, names))
-        for name in ("episodes", "updates_per_step", "warmup_episodes"):
+        for name in ("episodes", "updates_per_step", "warmup_episodes", "selection_cases", "selection_episode"):
             if getattr(self, name) < 0:
                 found.append(f"{name}: {getattr(self, name)} is not >= 0")
         if min(self.people, default=0) < 0:
             found.append(f"people: {list(self.people)} is not a list of numbers >= 0")
-        for name in ("epsilon_start", "epsilon_end", "target_rate", "rehearsal"):
+        for name in ("epsilon_start", "epsilon_end", "target_rate", "average_rate", "rehearsal"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 found.append(f"{name}: {getattr(self, name)} is not in 0..1")
         return tuple(found)

@@ -8,7 +8,7 @@ import sys
 import time
 from collections import deque
 from pathlib import Path
-from typing import Any, Deque, Dict, List, Optional, TextIO
+from typing import Any, Deque, Dict, List, Optional, TextIO, Tuple
 
 import numpy as np
 import torch
@@ -37,6 +37,8 @@ BEST_FILE = "best.pt"
 LOG_FILE = "log.jsonl"
 LESSONS_FILE = "lessons.pt"
 CONFIG_FILE = "config.yaml"
+# Training cases by whose number no training comes.
+FIRST_SELECTION_CASE = 1_000_000
 
 
 class Trainer:
@@ -51,6 +53,7 @@ class Trainer:
         resume: goes on from training_state.pt if it is there.
         out: where progress is shown.
         begin_with: checkpoint whose weights are taken instead of imitating.
+        lessons: where lessons are kept, for several runs that are taught alike; in the directory if None.
     """
 
     def __init__(
@@ -60,8 +63,10 @@ class Trainer:
         resume: bool = False,
         out: TextIO = sys.stderr,
         begin_with: Optional[Path] = None,
+        lessons: Optional[Path] = None,
     ) -> None:
         self._params, self._directory = params, Path(directory)
+        self._lessons = self._directory / LESSONS_FILE if lessons is None else Path(lessons)
         self._progress = ProgressLine(out)
         self._contract = params.contract()
         self._lookahead = self._contract.make_lookahead()
@@ -71,7 +76,7 @@ class Trainer:
         self._learner = Learner(self._network, params.learning)
         self._episodes = 0
         self._next_case = params.teacher.cases or params.imitation.episodes
-        self._best = (-np.inf, -1.0)
+        self._best: Tuple[float, ...] = (-np.inf,)
         self._seconds: Dict[str, float] = {}
         self._cpu_seconds: Dict[str, float] = {}
         self._recent: Deque[Finished] = deque(maxlen=200)
@@ -112,7 +117,9 @@ class Trainer:
     def _demonstrate(self) -> Demonstrations:
         self._progress.show("demonstrations ...")
         if self._params.teacher.cases:
-            demonstrations = taught(self._params, self._directory / LESSONS_FILE)
+            demonstrations, before = taught(self._params, self._lessons)
+            if before and not self._restored:
+                self._cpu_seconds["lessons"] = before
         else:
             demonstrations = demonstrate(self._params, self._lookahead)
         self._log("demonstrations", samples=len(demonstrations.returns), success=demonstrations.success)
@@ -175,7 +182,7 @@ class Trainer:
 
     def _acting(self) -> ValuePolicy:
         """Decides with the weights as they are now."""
-        return ValuePolicy(packed(self._learner.target), self._lookahead)
+        return ValuePolicy(packed(self._learner.acting), self._lookahead)
 
     def _epsilon(self) -> float:
         learning = self._params.learning
@@ -221,19 +228,29 @@ class Trainer:
             f"validation after {self._episodes} episodes: success {result['success']:.2f}, collision "
             f"{result['collision']:.2f}, time {time_s} s, discomfort {result['discomfort']:.3f}"
         )
-        score = (result["mean_return"], result["success"])
+        # Judged by more cases comes before judged by fewer.
+        score = (result["judged_by"], result["judged_return"], result["success"])
         if score > self._best:
             self._best = score
             self._save_network(BEST_FILE, result)
         return result
 
     def _run_validation(self) -> Dict[str, Any]:
+        result = self._run_cases("validation", range(SPLIT_SIZES["validation"]))
+        judged_by, total = result["cases"], result["cases"] * result["mean_return"]
+        learning = self._params.learning
+        if learning.selection_cases and self._episodes >= learning.selection_episode:
+            numbers = range(FIRST_SELECTION_CASE, FIRST_SELECTION_CASE + learning.selection_cases)
+            more = self._run_cases("training", numbers)
+            judged_by, total = judged_by + more["cases"], total + more["cases"] * more["mean_return"]
+            result["selection_success"] = more["success"]
+        return {**result, "judged_by": judged_by, "judged_return": total / judged_by}
+
+    def _run_cases(self, split: str, numbers: range) -> Dict[str, Any]:
+        """What comes of the network that is kept."""
         params = self._params
-        numbers = range(SPLIT_SIZES["validation"])
-        episodes = run_cases(
-            self._acting(), params.environment, params.reward, "validation", numbers, params.gamma
-        )
-        return episodes.summary()
+        policy = ValuePolicy(packed(self._learner.average), self._lookahead)
+        return run_cases(policy, params.environment, params.reward, split, numbers, params.gamma).summary()
 
     def _timed(self, phase: str, work: Any) -> Any:
         begin, begin_cpu = time.monotonic(), time.process_time()
@@ -254,8 +271,6 @@ class Trainer:
     def _prepare_directory(self, resume: bool) -> None:
         self._directory.mkdir(parents=True, exist_ok=True)
         state = self._directory / STATE_FILE
-        if not resume:
-            (self._directory / LESSONS_FILE).unlink(missing_ok=True)
         if resume and state.exists():
             self._restore(state)
             return
@@ -296,7 +311,7 @@ class Trainer:
         self._learner.restore(state["learner"])
         self._random.bit_generator.state = state["random"]
         self._episodes, self._next_case = state["episodes"], state["next_case"]
-        self._best = (state["best"][0], state["best"][1])
+        self._best = tuple(state["best"])
         self._seconds, self._cpu_seconds = state["seconds"], state["cpu_seconds"]
         memory = state["memory"]
         memory["arrays"] = [array.numpy() for array in memory["arrays"]]
@@ -315,7 +330,7 @@ class Trainer:
             "validation": dict(validation),
             "begun_with": {} if self._begun_with is None else dict(self._begun_with.origin),
         }
-        save_checkpoint(self._directory / name, Checkpoint(self._learner.target, self._contract, origin))
+        save_checkpoint(self._directory / name, Checkpoint(self._learner.average, self._contract, origin))
 
 
 def _passed(before: int, now: int, every: int) -> bool:
