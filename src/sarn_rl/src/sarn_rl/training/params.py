@@ -198,7 +198,8 @@ class LearningParams:
             "checkpoint_episodes",
         )
         found = list(_positive(self, names))
-        for name in ("episodes", "updates_per_step", "warmup_episodes", "selection_cases", "selection_episode"):
+        counts = ("episodes", "updates_per_step", "warmup_episodes", "selection_cases", "selection_episode")
+        for name in counts:
             if getattr(self, name) < 0:
                 found.append(f"{name}: {getattr(self, name)} is not >= 0")
         if min(self.people, default=0) < 0:
