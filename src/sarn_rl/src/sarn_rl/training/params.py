@@ -141,9 +141,10 @@ class LearningParams:
         return_steps: n of n-step returns; they end before the next random action.
         learn_from_random_actions: whether a state that a random action left is learned from.
         target_rate: share of the way to the learned network that the target network goes in a step.
-        average_rate: the same of the average of its weights that is validated and kept; 0: the target network is.
-        mirror_while_learning: whether targets and actions are means over the mirror image too while it learns,
-            where the kept network's values are (network.mirror_mean).
+        average_rate: the same of the average of its weights that is validated and kept; 0: the target network
+            is.
+        mirror_while_learning: whether targets and actions are means over the mirror image too while it
+            learns, where the kept network's values are (network.mirror_mean).
         mirror: whether half of the samples are seen in a mirror.
         gradient_clip: largest norm of a gradient.
         validation_episodes: episodes between validations (on the 100 validation cases).
