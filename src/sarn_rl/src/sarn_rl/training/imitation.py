@@ -65,9 +65,9 @@ def demonstrate(params: TrainingParams, lookahead: Lookahead) -> Demonstrations:
 def taught(params: TrainingParams, cache: Path) -> Tuple[Demonstrations, float]:
     """A teacher's values as returns, and the CPU seconds that they took if they were made before.
 
-    As transitions they are complete: nothing follows that must be guessed. Lessons do not depend on the seed
-    of the training. They are kept in `cache`, so that a run that goes on, or another that is taught alike, has
-    them at once; those of other parameters are made anew.
+    As transitions they are complete: nothing follows that must be guessed. Lessons do not depend on the
+    seed of the training. They are kept in `cache`, so that a run that goes on, or another that is taught
+    alike, has them at once; those of other parameters are made anew.
     """
     about = taught_by(params)
     kept = _kept_lessons(cache, about)
