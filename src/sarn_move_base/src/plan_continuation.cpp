@@ -35,13 +35,27 @@ bool same(const sarn::Pose2D& a, const sarn::Pose2D& b) {
 PlanContinuation::PlanContinuation(const lattice_planner::PlannerParams& planner,
                                    const ContinuationParams& params)
     : params_(checked(params)),
+      body_(planner.footprint),
       planner_(planner),
       footprint_(lattice_planner::parseFootprint(planner.footprint), planner.allow_unknown) {}
 
 void PlanContinuation::setWeights(const lattice_planner::PlannerParams& params) {
   lattice_planner::PlannerParams wanted = params;
-  wanted.footprint = lattice_planner::toString(footprint_.footprint());
+  const std::lock_guard<std::mutex> lock(settings_mutex_);
+  wanted.footprint = body_;
   planner_.setParams(wanted);
+}
+
+void PlanContinuation::setFootprint(const lattice_planner::Footprint& footprint) {
+  const lattice_planner::PlannerParams params = [&] {
+    const std::lock_guard<std::mutex> lock(settings_mutex_);
+    lattice_planner::PlannerParams wanted = planner_.params();
+    wanted.footprint = body_ = lattice_planner::toString(footprint);
+    planner_.setParams(wanted);
+    return wanted;
+  }();
+  footprint_ = lattice_planner::FootprintCheck(footprint, params.allow_unknown);
+  planner_.waitUntilReady();
 }
 
 /// The robot is where the last plan has it, and what it will do while the search runs is still free.

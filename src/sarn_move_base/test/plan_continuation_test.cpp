@@ -56,6 +56,21 @@ TEST_F(PlanContinuationTest, unchangedWorldKeepsThePlanThatIsDriven) {
   EXPECT_DOUBLE_EQ(second.result.trajectory.endTime(), first.result.trajectory.endTime());
 }
 
+TEST_F(PlanContinuationTest, widerBodyGetsAnotherPlanAndWeightsSetLaterKeepIt) {
+  for (int y = 0; y < 50; ++y) {  // a wall with a door of 0.7 m
+    if (y < 22 || y > 28) block(50, y);
+  }
+  EXPECT_EQ(plan({1.0, 2.5, 0.0}, 100.0).result.status, PlanStatus::kComplete);
+  continuation_.setFootprint(
+      lattice_planner::makeFootprint({{0.3, 0.45}, {-0.3, 0.45}, {-0.3, -0.45}, {0.3, -0.45}}));
+  EXPECT_NE(plan({1.0, 2.5, 0.0}, 100.5).result.status, PlanStatus::kComplete) << "0.9 m wide";
+  continuation_.setWeights(planner());
+  continuation_.waitUntilReady();
+  EXPECT_NE(plan({1.0, 2.5, 0.0}, 101.0).result.status, PlanStatus::kComplete);
+  continuation_.setFootprint({});
+  EXPECT_EQ(plan({1.0, 2.5, 0.0}, 101.5).result.status, PlanStatus::kComplete) << "round again";
+}
+
 TEST_F(PlanContinuationTest, newGoalBranchesOffThePlanThatIsDriven) {
   const auto first = plan({1.0, 2.5, 0.0}, 100.0);
   goal_ = {5.0, 4.0, 1.5};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,6 +67,8 @@ class PlanContinuation {
   /// Any thread. Plans follow these within some tenths of a second; the footprint stays as it was. Throws
   /// std::invalid_argument that names every problem.
   void setWeights(const lattice_planner::PlannerParams& params);
+  /// The thread that plans; blocks some tenths of a second, until the next plan is one for this body.
+  void setFootprint(const lattice_planner::Footprint& footprint);
   [[nodiscard]] lattice_planner::PlannerParams planner() const { return planner_.params(); }
   /// Blocks until the next plan will follow the weights set last.
   void waitUntilReady() { planner_.waitUntilReady(); }
@@ -83,6 +86,8 @@ class PlanContinuation {
                                      const sarn::TimedCostmapView& costs);
 
   ContinuationParams params_;
+  std::mutex settings_mutex_;  // body_, and planner_'s parameters while they are read and set again
+  std::string body_;           // the footprint as text
   sarn_navigation::LivePlanner planner_;
   lattice_planner::FootprintCheck footprint_;  // reset to the present costs
   std::optional<Last> last_;

@@ -44,7 +44,10 @@ void LatticePlanner::initialize(std::string name, costmap_2d::Costmap2DROS* cost
   ros::NodeHandle nh("~/" + name_);
   try {
     auto config = sarn::readParameters<PlannerPluginConfig>(nh, {"social"});
-    if (config.footprint.empty()) config.footprint = toString(footprintOf(*costmap_ros_));
+    if (config.footprint.empty()) {
+      outline_ = costmap_ros_->getRobotFootprint();
+      config.footprint = toString(footprintOf(*costmap_ros_));
+    }
     people_.setParams(sarn::readParameters<social_costmap::SocialParams>(ros::NodeHandle(nh, "social")));
     planner_ = std::make_unique<PlanContinuation>(config, config);
     tf_listener_.emplace(tf_);
@@ -122,6 +125,20 @@ std::string LatticePlanner::read(const geometry_msgs::PoseStamped& message, cons
   return {};
 }
 
+/// A footprint that was changed while move_base runs (its topic, dynamic_reconfigure) holds for the next
+/// plan. False: it is no robot's outline.
+bool LatticePlanner::followFootprint(std::string& problem) {
+  if (!outline_ || *outline_ == costmap_ros_->getRobotFootprint()) return true;
+  try {
+    planner_->setFootprint(footprintOf(*costmap_ros_));
+  } catch (const std::invalid_argument& error) {
+    problem = std::string("the costmap's footprint: ") + error.what();
+    return false;
+  }
+  outline_ = costmap_ros_->getRobotFootprint();
+  return true;
+}
+
 /// Costs and people as they are known at `now`; valid until the next call.
 sarn::TimedCostmapView LatticePlanner::observe(double now) {
   copyCosts(*costmap_ros_->getCostmap(), costs_);
@@ -143,8 +160,10 @@ LatticePlanner::Answer LatticePlanner::answer(const geometry_msgs::PoseStamped& 
   const std::lock_guard<std::mutex> lock(mutex_);
   plan.clear();
   if (!planner_) return {kNotInitialized, "not initialized (see the log)"};
+  std::string problem;
+  if (!followFootprint(problem)) return {kInternalError, problem};
   ContinuationRequest request;
-  std::string problem = read(start, "the start", request.robot);
+  problem = read(start, "the start", request.robot);
   if (!problem.empty()) return {kInvalidStart, problem};
   problem = read(goal, "the goal", request.goal);
   if (!problem.empty()) return {kInvalidGoal, problem};

@@ -56,7 +56,7 @@ void TimedPathFollower::initialize(std::string name, tf2_ros::Buffer* tf,
     const auto config = sarn::readParameters<FollowerPluginConfig>(ros::NodeHandle("~/" + name_));
     params_ = config;
     limits_ = {config.max_vel_x, config.max_vel_theta, config.acc_lim_x, config.acc_lim_theta};
-    footprint_ = {footprintOf(*costmap_ros_), true};
+    followFootprint();
     follower_ = std::make_unique<timed_path_follower::TimedPathFollower>(config);
   } catch (const std::exception& error) {
     ROS_FATAL("%s: %s", name_.c_str(), error.what());
@@ -187,6 +187,15 @@ bool TimedPathFollower::locateCostmap() {
   return false;
 }
 
+/// The local costmap's footprint, also one that was changed while move_base runs. Throws
+/// std::invalid_argument when it is no robot's outline.
+void TimedPathFollower::followFootprint() {
+  const auto& outline = costmap_ros_->getRobotFootprint();
+  if (outline == outline_) return;
+  footprint_ = {footprintOf(*costmap_ros_), true};
+  outline_ = outline;
+}
+
 bool TimedPathFollower::touches(const sarn::Pose2D& robot_in_plan) {
   const costmap_2d::Costmap2D& costmap = *costmap_ros_->getCostmap();
   const sarn::Pose2D robot = costmap_from_plan_ * robot_in_plan;
@@ -206,6 +215,11 @@ TimedPathFollower::Answer TimedPathFollower::control() {
   if (!fix) return {kTfError, {}, problem + ": the robot stands still"};
   if (params_.check_obstacles) {
     if (!locateCostmap()) return {kTfError, {}, "the costmap's place is not known: the robot stands still"};
+    try {
+      followFootprint();
+    } catch (const std::invalid_argument& error) {
+      return {kInvalidPath, {}, std::string("the costmap's footprint: ") + error.what()};
+    }
     follower_->setCollisionQuery([this](const sarn::Pose2D& pose) { return touches(pose); });
   }
   const boost::unique_lock<costmap_2d::Costmap2D::mutex_t> lock(*costmap_ros_->getCostmap()->getMutex());

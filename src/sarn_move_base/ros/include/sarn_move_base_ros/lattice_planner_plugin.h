@@ -72,6 +72,7 @@ class LatticePlanner : public nav_core::BaseGlobalPlanner
                               double tolerance, Poses& plan);
   [[nodiscard]] std::string read(const geometry_msgs::PoseStamped& message, const char* what,
                                  sarn::Pose2D& pose) const;
+  [[nodiscard]] bool followFootprint(std::string& problem);
   [[nodiscard]] sarn::TimedCostmapView observe(double now);
   void warnOfSocialLayer() const;
   void publish(const Poses& plan) const;
@@ -82,6 +83,8 @@ class LatticePlanner : public nav_core::BaseGlobalPlanner
   costmap_2d::Costmap2DROS* costmap_ros_ = nullptr;
   std::string frame_;
   std::unique_ptr<PlanContinuation> planner_;  // null: not initialized
+  std::optional<std::vector<geometry_msgs::Point>>
+      outline_;  // the costmap's, planned with; none: a parameter
   social_costmap::SocialLayers people_{social_costmap::SocialParams{}};
   sarn::Grid<std::uint8_t> costs_;
   tf2_ros::Buffer tf_;

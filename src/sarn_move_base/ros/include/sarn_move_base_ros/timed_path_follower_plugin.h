@@ -83,6 +83,7 @@ class TimedPathFollower : public nav_core::BaseLocalPlanner
   void onOdometry(const nav_msgs::Odometry& message);
   /// Finds costmap_from_plan_; false, and one line, when tf does not know it.
   [[nodiscard]] bool locateCostmap();
+  void followFootprint();
   [[nodiscard]] bool touches(const sarn::Pose2D& robot_in_plan);
 
   std::mutex mutex_;  // everything below but motion_
@@ -91,6 +92,7 @@ class TimedPathFollower : public nav_core::BaseLocalPlanner
   costmap_2d::Costmap2DROS* costmap_ros_ = nullptr;
   FollowerPluginParams params_;
   DriveLimits limits_;
+  std::vector<geometry_msgs::Point> outline_;  // of footprint_
   lattice_planner::FootprintCheck footprint_;  // the local costmap's own, reset to its present costs
   std::unique_ptr<timed_path_follower::TimedPathFollower> follower_;  // null: not initialized
   std::string plan_frame_;                                            // empty: no plan

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lattice planner as move_base and move_base_flex use it.
+#include "plugins_fixture.h"
+
+namespace sarn_move_base_test {
+namespace {
+
+double distanceToPlan(const Poses& plan, const sarn::Person& person) {
+  double nearest = 1e9;
+  for (const auto& pose : plan) {
+    const double ahead = std::max(0.0, pose.header.stamp.toSec() - kNow);
+    const Eigen::Vector2d where = person.position + ahead * person.velocity;
+    if (pose.header.stamp.isZero()) continue;  // the goal
+    nearest =
+        std::min(nearest, std::hypot(pose.pose.position.x - where.x(), pose.pose.position.y - where.y()));
+  }
+  return nearest;
+}
+
+TEST_F(Plugins, plannerStampsEachPoseAndAppendsTheGoal) {
+  const auto planner = makePlanner();
+  Poses plan;
+  double cost = 0.0;
+  ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.5}), plan, cost));
+  ASSERT_GT(plan.size(), 10U);
+  EXPECT_GT(cost, 7.0 / 0.5);
+  for (std::size_t i = 1; i + 1 < plan.size(); ++i)
+    EXPECT_GT(plan[i].header.stamp, plan[i - 1].header.stamp) << i;
+  EXPECT_TRUE(plan.back().header.stamp.isZero());
+  EXPECT_DOUBLE_EQ(plan.back().pose.position.x, 8.0);
+  EXPECT_EQ(plan.front().header.frame_id, "map");
+  EXPECT_NEAR(plan.front().pose.position.x, 1.0, 1e-9);
+}
+
+TEST_F(Plugins, plannerGoesRoundWhoeverStandsInTheWay) {
+  const auto planner = makePlanner();
+  Poses alone;
+  ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), alone));
+  EXPECT_LT(distanceToPlan(alone, kStanding), 0.1) << "straight through where nobody is";
+  tell({kStanding});
+  Poses around;
+  ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), around));
+  EXPECT_GE(distanceToPlan(around, kStanding), 0.5);
+}
+
+TEST_F(Plugins, plannerKnowsThatPeopleMove) {
+  const auto planner = makePlanner();
+  // In the way now, gone when the robot comes by: the straight way is the best.
+  sarn::Person leaves{"ben", "", {5.0, 3.0}, {0.0, -1.2}, 1.0};
+  tell({leaves});
+  Poses plan;
+  ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), plan));
+  for (const auto& pose : plan) EXPECT_NEAR(pose.pose.position.y, 3.0, 0.2);
+  EXPECT_GT(distanceToPlan(plan, leaves), 0.5);
+}
+
+TEST_F(Plugins, plannerWeightsAreTunedLive) {
+  const auto planner = makePlanner();
+  tell({kStanding});
+  const auto plannedDistance = [&](double x) {
+    Poses plan;
+    EXPECT_TRUE(planner->makePlan(stamped({x, 3.0, 0.0}), stamped({8.5, 3.0, 0.0}), plan));
+    return distanceToPlan(plan, kStanding);
+  };
+  tune("~/LatticePlanner", "social_weight", 0.0);
+  double x = 1.0;  // another start each time: nothing of the last plan is kept
+  const auto await = [&](const auto& condition) {
+    for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(20.0);
+         ros::WallTime::now() < end;) {
+      if (condition(plannedDistance(x = x > 2.4 ? 1.0 : x + 0.7))) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(await([](double distance) { return distance < 0.65; })) << "nobody minds";
+  tune("~/LatticePlanner", "social_weight", 200.0);
+  EXPECT_TRUE(await([](double distance) { return distance > 0.9; }));
+  tune("~/LatticePlanner", "social_weight", 8.0);
+}
+
+TEST_F(Plugins, plannerGoesRoundWalls) {
+  walls_->add(4.0, 1.0, 4.2, 6.0);
+  const auto planner = makePlanner();
+  Poses plan;
+  ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), plan));
+  for (const auto& pose : plan) {
+    const bool in_wall = pose.pose.position.x > 4.0 && pose.pose.position.x < 4.2;
+    EXPECT_TRUE(!in_wall || pose.pose.position.y < 1.0);
+  }
+}
+
+TEST_F(Plugins, plannerTakesTheCostmapsFootprint) {
+  walls_->add(4.0, 0.0, 6.0, 2.65);  // a passage of 0.7 m
+  walls_->add(4.0, 3.35, 6.0, 6.0);
+  costmap_->setUnpaddedRobotFootprint(longFootprint());
+  const auto planner = makePlanner();
+  Poses plan;
+  ASSERT_TRUE(planner->makePlan(stamped({2.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), plan));
+  for (const auto& pose : plan) {
+    const sarn::Pose2D at = *sarn::fromMessage(pose.pose);
+    for (const auto& corner : longFootprint()) {
+      const Eigen::Vector2d p = at * Eigen::Vector2d(corner.x, corner.y);
+      EXPECT_FALSE(p.x() > 4.0 && p.x() < 6.0 && std::abs(p.y() - 3.0) > 0.35) << p.transpose();
+    }
+  }
+  EXPECT_FALSE(planner->makePlan(stamped({2.0, 3.0, 0.0}), stamped({5.0, 3.0, 1.57}), plan)) << "across";
+  costmap_->setUnpaddedRobotFootprint({});  // round: its centre may be there at any heading
+  EXPECT_TRUE(makePlanner()->makePlan(stamped({2.0, 3.0, 0.0}), stamped({5.0, 3.0, 1.57}), plan));
+}
+
+TEST_F(Plugins, plannerFollowsAFootprintThatIsChangedWhileItRuns) {
+  walls_->add(4.0, 0.0, 6.0, 2.65);  // a passage of 0.7 m
+  walls_->add(4.0, 3.35, 6.0, 6.0);
+  const auto planner = makePlanner();
+  Poses plan;
+  const auto start = stamped({2.0, 3.0, 0.0});
+  const auto across = stamped({5.0, 3.0, 1.57});
+  EXPECT_TRUE(planner->makePlan(start, across, plan)) << "round";
+  costmap_->setUnpaddedRobotFootprint(longFootprint());
+  EXPECT_FALSE(planner->makePlan(start, across, plan)) << "1 m long";
+  auto elsewhere = longFootprint();
+  for (auto& corner : elsewhere) corner.x += 3.0;
+  costmap_->setUnpaddedRobotFootprint(elsewhere);
+  EXPECT_FALSE(planner->makePlan(start, stamped({3.0, 3.0, 0.0}), plan)) << "no outline around the robot";
+  costmap_->setUnpaddedRobotFootprint({});
+  EXPECT_TRUE(planner->makePlan(start, across, plan));
+}
+
+TEST_F(Plugins, planningChangesNoCostAndTheCostmapOutlivesItsPlugins) {
+  walls_->add(4.0, 1.0, 4.2, 6.0);
+  const auto costs = [this] {
+    const costmap_2d::Costmap2D& costmap = *costmap_->getCostmap();
+    const unsigned char* const cells = costmap.getCharMap();
+    return std::vector<unsigned char>(cells, cells + costmap.getSizeInCellsX() * costmap.getSizeInCellsY());
+  };
+  costmap_->updateMap();
+  const auto before = costs();
+  for (int round = 0; round < 2; ++round) {
+    const auto planner = makePlanner();
+    const auto follower = makeFollower(costmap_.get());
+    Poses plan;
+    ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), plan));
+    EXPECT_EQ(costs(), before) << "no border, no people are written into somebody else's costmap";
+  }
+  costmap_->updateMap();  // both are gone
+  EXPECT_EQ(costs(), before);
+}
+
+TEST_F(Plugins, plannerRefusesWhatItCannotPlan) {
+  walls_->add(7.5, 2.5, 8.5, 3.5);
+  const auto planner = makePlanner();
+  const auto start = stamped({1.0, 3.0, 0.0});
+  Poses plan;
+  EXPECT_FALSE(planner->makePlan(start, stamped({8.0, 3.0, 0.0}), plan)) << "occupied";
+  EXPECT_FALSE(planner->makePlan(start, stamped({80.0, 3.0, 0.0}), plan)) << "outside";
+  EXPECT_FALSE(planner->makePlan(start, stamped({6.0, 3.0, 0.0}, "odom"), plan)) << "another frame";
+  EXPECT_FALSE(planner->makePlan(stamped({std::nan(""), 3.0, 0.0}), stamped({6.0, 3.0, 0.0}), plan));
+  EXPECT_TRUE(plan.empty());
+  EXPECT_TRUE(planner->makePlan(start, stamped({6.0, 3.0, 0.0}), plan));
+}
+
+TEST_F(Plugins, misspeltPlannerDoesNotPlan) {
+  const auto planner = makePlanner("MisspeltPlanner");
+  Poses plan;
+  EXPECT_FALSE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({6.0, 3.0, 0.0}), plan));
+}
+
+TEST_F(Plugins, flexiblePlannerSaysWhy) {
+  walls_->add(7.5, 2.5, 8.5, 3.5);
+  costmap_->updateMap();
+  pluginlib::ClassLoader<mbf_costmap_core::CostmapPlanner> loader("mbf_costmap_core",
+                                                                  "mbf_costmap_core::CostmapPlanner");
+  const auto planner = loader.createInstance("sarn_move_base/LatticePlanner");
+  Poses plan;
+  double cost = 0.0;
+  std::string message;
+  const auto start = stamped({1.0, 3.0, 0.0});
+  const auto goal = stamped({8.0, 3.0, 0.0});
+  EXPECT_EQ(planner->makePlan(start, goal, 0.0, plan, cost, message), 60U) << "not initialized";
+  planner->initialize("LatticePlanner", costmap_.get());
+  EXPECT_EQ(planner->makePlan(start, goal, 0.0, plan, cost, message), 55U) << "blocked goal";
+  EXPECT_FALSE(message.empty());
+  EXPECT_EQ(planner->makePlan(start, goal, 1.0, plan, cost, message), 0U) << message;
+  EXPECT_FALSE(plan.empty());
+}
+
+}  // namespace
+}  // namespace sarn_move_base_test
