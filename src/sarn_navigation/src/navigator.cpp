@@ -172,6 +172,7 @@ void Navigator::adoptResult(const NavigatorInput& input) {
     return;
   }
   plan_failure_ = lattice_planner::toString(result->status);
+  if (trajectory_task_ != task_) dropPlan();  // what is driven leads to the last target, this one has no plan
   if (yield_ && !yield_->reached) endYield(input.now);
 }
 
@@ -180,6 +181,7 @@ void Navigator::adoptResult(const NavigatorInput& input) {
 /// can read it.
 bool Navigator::keepsPlan(const lattice_planner::PlanResult& result, const NavigatorInput& input) {
   const double release = result.trajectory.startTime();
+  if (trajectory_task_ != task_) return false;  // it leads elsewhere
   if (!cost_ || committed_.empty() || trajectory_status_ != PlanStatus::kComplete) return false;
   if (trajectory_.endTime() <= release || conflictUntil(trajectory_.endTime(), input)) return false;
   if (result.status != PlanStatus::kComplete) return true;
@@ -191,6 +193,7 @@ bool Navigator::keepsPlan(const lattice_planner::PlanResult& result, const Navig
 void Navigator::adoptPlan(const lattice_planner::PlanResult& result) {
   trajectory_ = committed_.empty() ? result.trajectory : lattice_planner::join(committed_, result.trajectory);
   trajectory_status_ = result.status;
+  trajectory_task_ = task_;
   follower_.setTrajectory(trajectory_, target());
   ++plan_count_;
 }
@@ -207,7 +210,7 @@ void Navigator::planWhenDue(const NavigatorInput& input) {
   if (worker_.busy() || input.now < next_plan_time_) return;
   if (yield_ && yield_->reached) return;
   const bool arriving = !trajectory_.empty() && trajectory_status_ == PlanStatus::kComplete &&
-                        trajectory_.endTime() - input.now < kArrivalTime && submitted_task_ == task_;
+                        trajectory_.endTime() - input.now < kArrivalTime && trajectory_task_ == task_;
   if (arriving) return;
   const auto start = planStart(input);
   if (!start) return;
@@ -351,7 +354,10 @@ sarn::Twist2D Navigator::follow(const NavigatorInput& input) {
       return command.twist;
     }
     case timed_path_follower::FollowStatus::kGoalReached:
-      if (yield_) {
+      if (trajectory_task_ != task_) {  // the last target's place
+        dropPlan();
+        next_plan_time_ = input.now;
+      } else if (yield_) {
         yield_->reached = true;
       } else {
         goal_.reset();

@@ -226,6 +226,44 @@ TEST(Navigator, leavesThePlanForAClearlyCheaperOne) {
   EXPECT_GT(drive.navigator().planCount(), before);
 }
 
+TEST(Navigator, thePlanToTheLastGoalIsNotKeptForANewOneHoweverCheapItIs) {
+  DrawnScene scene(room(32, 8));
+  Drive drive(scene, {0.6, 1.0, 0.0}, {}, planCost);
+  ASSERT_EQ(drive.setGoal({3.0, 1.0, 0.0}), "");
+  while (drive.pose().x < 1.5) drive.step();
+  ASSERT_EQ(drive.setGoal({7.0, 1.0, 0.0}), "");
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kSucceeded, 30.0));
+  EXPECT_NEAR(drive.pose().x, 7.0, 0.2);
+}
+
+TEST(Navigator, goalThatIsSetWhileItMovesAsideIsReachedItself) {
+  DrawnScene scene(room(24, 16));
+  Drive drive(scene, {3.0, 2.0, 0.0}, {}, planCost);
+  drive.navigator().observe({drive.now(), 0.5, {{"anna", "", {{{5.5, 2.0}, {-1.0, 0.0}, 0.1}}}}});
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kYielding, 5.0));
+  for (int i = 0; i < 10; ++i) drive.step();
+  drive.navigator().observe({drive.now(), 0.5, {}});
+  ASSERT_EQ(drive.setGoal({5.4, 2.0, 0.0}), "");
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kSucceeded, 40.0));
+  EXPECT_NEAR(drive.pose().x, 5.4, 0.2);
+  EXPECT_NEAR(drive.pose().y, 2.0, 0.2);
+}
+
+TEST(Navigator, aGoalWithoutAPlanIsNotReachedAtTheLastOne) {
+  std::vector<std::string> rooms = room(32, 8);
+  for (auto& row : rooms) row[24] = '#';
+  DrawnScene scene(rooms);
+  NavigatorParams params;
+  params.max_recoveries = 0;
+  params.progress_timeout = 3.0;
+  Drive drive(scene, {0.6, 1.0, 0.0}, params, planCost);
+  ASSERT_EQ(drive.setGoal({3.0, 1.0, 0.0}), "");
+  while (drive.pose().x < 1.5) drive.step();
+  ASSERT_EQ(drive.setGoal({7.5, 1.0, 0.0}), "");  // behind the wall
+  EXPECT_FALSE(drive.runUntil(NavigatorState::kSucceeded, 12.0));
+  EXPECT_EQ(drive.navigator().status().state, NavigatorState::kAborted);
+}
+
 TEST(Navigator, aPlanThatIsBlockedIsNotKept) {
   DrawnScene scene(room(32, 8));
   Drive drive(scene, {0.6, 1.0, 0.0}, {}, planCost);

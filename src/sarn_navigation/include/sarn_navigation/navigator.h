@@ -138,6 +138,7 @@ class Navigator {
   unsigned plan_count_ = 0;
   unsigned task_ = 0;  // grows when target or base of planning change
   unsigned submitted_task_ = 0;
+  unsigned trajectory_task_ = 0;   // whose target trajectory_ leads to
   double next_plan_time_ = 0.0;    // [s]
   double submit_time_ = 0.0;       // [s] when the last search began
   double yield_retry_time_ = 0.0;  // [s]
