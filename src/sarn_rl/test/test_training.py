@@ -4,6 +4,10 @@ from __future__ import annotations
 import dataclasses
 import io
 import json
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 from typing import Any, Dict, List
 
@@ -23,6 +27,7 @@ from sarn_rl.training.params import (
     ImitationParams,
     LearningParams,
     ReplayParams,
+    TeacherParams,
     TrainingParams,
     load_params,
 )
@@ -280,3 +285,128 @@ def test_rehearsal_keeps_what_the_memory_does_not_hold() -> None:
         assert float((learned - 0.2).abs().max()) < 0.05
         errors[count] = float((value - 0.9).abs().max())
     assert errors[16] < 0.05 < 0.3 < errors[0]
+
+
+def test_average_follows_more_slowly_than_the_target_and_is_what_is_kept(tmp_path: Path) -> None:
+    from sarn_rl.networks.factory import make_network
+
+    torch.manual_seed(0)
+    learning = LearningParams(target_rate=0.5, average_rate=0.25)
+    learner = Learner(make_network(NetworkParams("cadrl"), 5, 0.9), learning)
+    before = [value.clone() for value in learner.average.parameters()]
+    with torch.no_grad():
+        for value in learner.network.parameters():
+            value.add_(1.0)
+    learner._follow()
+    for old, target, average in zip(before, learner.target.parameters(), learner.average.parameters()):
+        assert torch.allclose(target, old + 0.5) and torch.allclose(average, old + 0.25)
+    trained(tiny(learning=dataclasses.replace(tiny().learning, average_rate=0.01)), tmp_path)
+    state = torch.load(tmp_path / STATE_FILE, weights_only=True)["learner"]
+    assert same(weights(tmp_path / LAST_FILE), state["average"])
+    assert not same(state["average"], state["target"])
+
+
+def test_mirror_image_is_left_out_while_learning_if_asked() -> None:
+    from sarn_rl.networks.factory import make_network
+
+    network = make_network(NetworkParams("cadrl", mirror_mean=True), 5, 0.9)
+    for asked in (True, False):
+        learner = Learner(network, LearningParams(mirror_while_learning=asked))
+        assert (learner.acting is learner.target) == asked
+        assert learner.average is learner.target
+
+
+def test_networks_are_compared_by_more_cases_near_the_end(tmp_path: Path) -> None:
+    learning = dataclasses.replace(tiny().learning, selection_cases=30, selection_episode=20)
+    trained(tiny(learning=learning), tmp_path)
+    judged_by = [entry["judged_by"] for entry in events(tmp_path, "validation")]
+    assert judged_by[0] == 20 and judged_by[-1] == 50
+    assert load_checkpoint(tmp_path / BEST_FILE).origin["validation"]["judged_by"] == 50
+
+
+def taught_params(**changes: Any) -> TrainingParams:
+    teacher = TeacherParams(cases=4, people=(1,), cell=0.5, horizon=12.0, lesson_time=2.0)
+    return tiny(teacher=teacher, learning=dataclasses.replace(tiny().learning, episodes=0), **changes)
+
+
+def test_lessons_are_shared_by_runs_that_are_taught_alike(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from sarn_rl.training import imitation
+
+    made = []
+    original = imitation.Teacher.lessons
+
+    def counted(self: imitation.Teacher, random: np.random.Generator) -> Any:
+        made.append(self)
+        return original(self, random)
+
+    monkeypatch.setattr(imitation.Teacher, "lessons", counted)
+    lessons = tmp_path / "lessons.pt"
+    for params in (taught_params(), taught_params(seed=4), taught_params(gamma=0.8)):
+        directory = tmp_path / f"{params.seed}_{params.gamma}"
+        Trainer(params, directory, out=io.StringIO(), lessons=lessons).run()
+    assert len(made) == 2
+    spent = load_checkpoint(tmp_path / "4_0.9" / LAST_FILE).origin["cpu_seconds"]
+    assert spent["lessons"] > spent["demonstrations"]
+    assert "lessons" not in load_checkpoint(tmp_path / "3_0.9" / LAST_FILE).origin["cpu_seconds"]
+    lessons.write_bytes(b"not lessons")
+    with pytest.raises(CheckpointError, match="lessons.pt: cannot be read"):
+        Trainer(taught_params(), tmp_path / "again", out=io.StringIO(), lessons=lessons).run()
+
+
+def train_command(directory: Path, params: TrainingParams) -> List[str]:
+    import yaml
+
+    config = directory / "config.yaml"
+    config.write_text(yaml.safe_dump(to_dict(params)), encoding="utf-8")
+    out = str(directory / "run")
+    return [sys.executable, "-m", "sarn_rl", "train", "--config", str(config), "--out", out, "--resume"]
+
+
+def long_and_small() -> TrainingParams:
+    learning = dataclasses.replace(
+        tiny().learning, episodes=160, checkpoint_episodes=4, validation_episodes=1000
+    )
+    return tiny(learning=learning)
+
+
+def episodes_kept(directory: Path) -> int:
+    """Of the last checkpoint; everything that it needs can be read."""
+    load_checkpoint(directory / LAST_FILE)
+    episodes: int = torch.load(directory / STATE_FILE, weights_only=True)["episodes"]
+    return episodes
+
+
+def test_full_disk_keeps_the_last_checkpoint(tmp_path: Path) -> None:
+    """No file may grow beyond 600 kB: the state does, with its memory. Then there is room again."""
+    import resource
+
+    def no_room() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (600_000, resource.RLIM_INFINITY))
+
+    command = train_command(tmp_path, long_and_small())
+    full = subprocess.run(command, stderr=subprocess.PIPE, text=True, preexec_fn=no_room, check=False)
+    assert full.returncode == 1
+    last = full.stderr.splitlines()[-1]
+    assert last.startswith("sarn_rl: ") and f"{STATE_FILE}: cannot be written" in last
+    kept = episodes_kept(tmp_path / "run")
+    told = events(tmp_path / "run", "episode")[-1]["number"]
+    assert 4 <= kept < 160 and told - kept <= 8
+    assert not list((tmp_path / "run").glob("*.part"))
+    assert subprocess.run(command, stderr=subprocess.PIPE, check=False).returncode == 0
+    assert episodes_kept(tmp_path / "run") >= 160
+
+
+def test_interrupt_keeps_the_last_checkpoint(tmp_path: Path) -> None:
+    command = train_command(tmp_path, long_and_small())
+    running = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    while not (tmp_path / "run" / STATE_FILE).exists() and running.poll() is None:
+        time.sleep(0.02)
+    running.send_signal(signal.SIGINT)
+    said = running.communicate()[1]
+    assert running.returncode == 130
+    assert said.splitlines()[-1] == "sarn_rl: interrupted; what was checkpointed is kept"
+    kept = episodes_kept(tmp_path / "run")
+    assert 4 <= kept < 160
+    assert events(tmp_path / "run", "episode")[-1]["number"] - kept <= 8
