@@ -351,7 +351,7 @@ def test_lessons_are_shared_by_runs_that_are_taught_alike(
     assert spent["lessons"] > spent["demonstrations"]
     assert "lessons" not in load_checkpoint(tmp_path / "3_0.9" / LAST_FILE).origin["cpu_seconds"]
     lessons.write_bytes(b"not lessons")
-    with pytest.raises(CheckpointError, match="lessons.pt: cannot be read"):
+    with pytest.raises(CheckpointError, match=r"lessons\.pt: cannot be read"):
         Trainer(taught_params(), tmp_path / "again", out=io.StringIO(), lessons=lessons).run()
 
 
