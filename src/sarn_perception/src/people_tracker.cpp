@@ -40,20 +40,24 @@ void PeopleTracker::advance(double stamp) {
   if (!(dt > 0.0)) return;
   now_ = stamp;
   for (PersonTrack& track : tracks_) {
-    const double walking = std::min(1.0, track.filter.velocity().norm() / params_.walking_speed);
-    const double unseen =
-        params_.standing_density + walking * (params_.walking_density - params_.standing_density);
-    const bool seen = now_ - track.last_seen < kSeen;
-    if (seen) {
-      track.filter.predict(
-          dt, {params_.steady_density, params_.changing_density, params_.steady_time, params_.changing_time});
-    } else {
-      track.filter.predict(dt, unseen);
-    }
+    predict(track, dt);
     track.existence *= std::exp(-dt / params_.survival_time);
     if (blocked_ && blocked_(track.filter.position())) track.filter.halt();
   }
   finish();
+}
+
+void PeopleTracker::predict(PersonTrack& track, double dt) const {
+  if (now_ - track.last_seen < kSeen) {
+    track.filter.predict(
+        dt, {params_.steady_density, params_.changing_density, params_.steady_time, params_.changing_time});
+  } else if (track.standing) {
+    track.filter.rest(dt, params_.stay_wander);
+  } else {
+    const double walking = std::min(1.0, track.filter.velocity().norm() / params_.walking_speed);
+    track.filter.predict(
+        dt, params_.standing_density + walking * (params_.walking_density - params_.standing_density));
+  }
 }
 
 bool PeopleTracker::begin(Detector detector, double stamp) {
@@ -81,6 +85,17 @@ void PeopleTracker::see(PersonTrack& track, const Eigen::Vector2d& position, dou
   ++track.detections;
   ++track.seen_by[static_cast<std::size_t>(detector)];
   if (detector == Detector::kBodies) track.body_seen = std::max(track.body_seen, now_ - age);
+  judgeStanding(track);
+}
+
+void PeopleTracker::judgeStanding(PersonTrack& track) const {
+  const Eigen::Vector2d place = track.filter.position();
+  if ((place - track.halt).norm() > params_.stay_distance) {
+    track.halt = place;
+    track.halted = track.last_seen;
+  }
+  track.standing = track.last_seen - track.halted >= params_.stay_time &&
+                   track.filter.velocity().norm() <= params_.stay_speed;
 }
 
 void PeopleTracker::miss(PersonTrack& track, const Look& look) const {
@@ -211,7 +226,8 @@ void PeopleTracker::found(const Eigen::Vector2d& position, double sigma, double 
   if (nearSomebody(position, age)) return;
   PersonTrack track{next_id_++, WalkingFilter(position, sigma, params_.initial_speed_sigma)};
   track.existence = existenceAfterDetection(params_.birth_existence, ratio);
-  track.first_seen = track.last_seen = now_ - age;
+  track.first_seen = track.last_seen = track.halted = now_ - age;
+  track.halt = position;
   track.detections = 1;
   track.seen_by[static_cast<std::size_t>(detector)] = 1;
   tracks_.push_back(track);
@@ -240,7 +256,8 @@ void PeopleTracker::finish() {
                                [&](const PersonTrack& track) {
                                  return track.existence < params_.forget_existence ||
                                         track.filter.positionSigma() > params_.max_sigma ||
-                                        now_ - track.last_seen > params_.max_unseen;
+                                        now_ - track.last_seen >
+                                            (track.standing ? params_.stay_unseen : params_.max_unseen);
                                }),
                 tracks_.end());
 }

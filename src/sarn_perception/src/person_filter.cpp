@@ -59,4 +59,11 @@ double PersonFilter::positionSigma() const {
 
 void PersonFilter::halt() { state_.tail<2>().setZero(); }
 
+void PersonFilter::rest(double dt, double wander) {
+  halt();
+  covariance_.rightCols<2>().setZero();
+  covariance_.bottomRows<2>().setZero();
+  covariance_.topLeftCorner<2, 2>().diagonal().array() += wander * dt;
+}
+
 }  // namespace sarn_perception

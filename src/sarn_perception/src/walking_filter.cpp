@@ -70,6 +70,11 @@ void WalkingFilter::predict(double dt, double density) {
   combine();
 }
 
+void WalkingFilter::rest(double dt, double wander) {
+  for (PersonFilter& filter : filters_) filter.rest(dt, wander);
+  combine();
+}
+
 void WalkingFilter::update(const Eigen::Vector2d& position, double sigma, double age) {
   std::array<double, 2> weight{};
   for (std::size_t i = 0; i < 2; ++i) {

@@ -90,6 +90,49 @@ TEST_F(PeopleTrackerTest, outOfViewIsNoEvidenceOfAbsence) {
   EXPECT_TRUE(tracker_.tracks().empty()) << "not for ever";
 }
 
+TEST_F(PeopleTrackerTest, remembersWhoStandsWhereNobodyLooks) {
+  PeopleTracker shipped{{}};
+  std::swap(shipped, tracker_);
+  walk({2.0, 0.0}, 0.0, 1.5);
+  const std::uint64_t id = tracker_.people().front().id;
+  lookAway(15.0, ahead(8.0F), {0.0, 0.0, sarn::kPi});
+  ASSERT_EQ(tracker_.people().size(), 1U) << "stands there still, for all that is known";
+  const PersonTrack& there = tracker_.tracks().front();
+  EXPECT_NEAR((there.filter.position() - Eigen::Vector2d(2.0, 0.0)).norm(), 0.0, 0.05);
+  EXPECT_EQ(there.filter.velocity().norm(), 0.0);
+  EXPECT_GT(there.filter.positionSigma(), 0.2) << "less certain meanwhile";
+  walk({2.0, 0.0}, 0.8, 1.5);
+  ASSERT_EQ(tracker_.people().size(), 1U);
+  EXPECT_EQ(tracker_.people().front().id, id) << "and walks off as the same person";
+  EXPECT_NEAR(tracker_.people().front().filter.velocity().x(), 0.8, 0.1);
+}
+
+TEST_F(PeopleTrackerTest, forgetsWhoStoodOnceTheirPlaceIsSeenEmpty) {
+  walk({2.0, 0.0}, 0.0, 1.5);
+  lookAway(10.0, ahead(8.0F), {0.0, 0.0, sarn::kPi});
+  ASSERT_EQ(tracker_.people().size(), 1U);
+  lookAway(0.4, ahead(8.0F));
+  EXPECT_TRUE(tracker_.people().empty());
+}
+
+TEST_F(PeopleTrackerTest, remembersNobodyAsStandingWhoWalkedAtLast) {
+  PeopleTracker shipped{{}};
+  std::swap(shipped, tracker_);
+  walk({2.0, 0.0}, 0.0, 2.0);
+  ASSERT_TRUE(tracker_.tracks().front().standing);
+  walk({2.0, 0.0}, 0.8, 0.3);
+  EXPECT_FALSE(tracker_.tracks().front().standing) << "set off";
+  walk({2.24, 0.0}, 0.8, 1.5);
+  EXPECT_FALSE(tracker_.tracks().front().standing);
+  lookAway(5.0, ahead(8.0F), {0.0, 0.0, sarn::kPi});
+  EXPECT_TRUE(tracker_.people().empty()) << "may be anywhere by now";
+}
+
+TEST_F(PeopleTrackerTest, takesNobodyForStandingAtFirstSight) {
+  walk({2.0, 0.0}, 0.0, 0.4);
+  EXPECT_FALSE(tracker_.tracks().front().standing);
+}
+
 TEST_F(PeopleTrackerTest, walksOnBehindAnother) {
   walk({2.0, 0.0}, 0.8, 1.0);
   lookAway(0.8, ahead(1.0F));  // somebody stands before the camera

@@ -20,21 +20,25 @@ enum class Detector : std::size_t { kLegs = 0, kBodies = 1 };
 struct PersonTrack {
   std::uint64_t id = 0;  // never used again
   WalkingFilter filter;
-  double existence = 0.0;        // [0, 1]
-  bool confirmed = false;        // was certain enough once
-  double first_seen = 0.0;       // [s]
-  double last_seen = 0.0;        // [s]
-  int detections = 0;            // so far
-  std::array<int, 2> seen_by{};  // detections by each detector
-  double body_seen = -1e9;       // [s] when its torso was seen last
+  double existence = 0.0;                          // [0, 1]
+  bool confirmed = false;                          // was certain enough once
+  double first_seen = 0.0;                         // [s]
+  double last_seen = 0.0;                          // [s]
+  int detections = 0;                              // so far
+  std::array<int, 2> seen_by{};                    // detections by each detector
+  double body_seen = -1e9;                         // [s] when its torso was seen last
+  Eigen::Vector2d halt = Eigen::Vector2d::Zero();  // [m] has kept near this place
+  double halted = 0.0;                             // [s] since then
+  bool standing = false;                           // when last seen
 };
 
 /// Follows people in a frame that does not move with the robot (odom), from detections of several detectors.
 ///
 /// Each person is a filter of walking people (walking_filter.h) and a probability of existence (existence.h).
 /// Detections are given to people by global nearest neighbour, first to those who are certain; what is left
-/// begins new tracks. Nobody is less likely to exist because they were not looked at: only a sensor that saw
-/// through the place where they should be is evidence against them.
+/// begins new tracks. Who stood when last seen is taken to stand on where nobody looks; who walked, to walk
+/// on, and is soon forgotten. Nobody is less likely to exist because they were not looked at: only a sensor
+/// that saw through the place where they should be is evidence against them.
 class PeopleTracker {
  public:
   /// Throws std::invalid_argument that names every problem.
@@ -74,6 +78,8 @@ class PeopleTracker {
                           const sarn::Pose2D& frame_from_sensor, double stamp);
   void see(PersonTrack& track, const Eigen::Vector2d& position, double sigma, double ratio, double age,
            Detector detector);
+  void judgeStanding(PersonTrack& track) const;
+  void predict(PersonTrack& track, double dt) const;
   void miss(PersonTrack& track, const Look& look) const;
   void giveLegs(const std::vector<Leg>& legs, bool confirmed, std::vector<std::size_t>& available,
                 std::vector<bool>& seen, double age);

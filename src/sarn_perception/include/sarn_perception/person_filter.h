@@ -34,6 +34,9 @@ class PersonFilter {
   [[nodiscard]] double positionSigma() const;
   /// The person stands: after walking into a wall.
   void halt();
+  /// Goes `dt` [s] ahead, of somebody who stands: at rest, `wander` [m^2/s] the growth of the variance of the
+  /// place on each axis.
+  void rest(double dt, double wander);
 
  private:
   Eigen::Vector4d state_;

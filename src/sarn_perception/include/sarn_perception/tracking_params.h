@@ -107,6 +107,10 @@ struct TrackerParams {
   double walking_density = 0.15;   // [m^2/s^3] of who walked when last seen
   double standing_density = 0.01;  // [m^2/s^3] of who stood when last seen
   double walking_speed = 0.5;      // [m/s] from here on a person counts as walking, in the two above
+  double stay_distance = 0.2;      // [m] who keeps to a place this wide around where they came to a halt,
+  double stay_time = 0.8;          // [s] for so long,
+  double stay_speed = 0.3;         // [m/s] no faster at last: stands, and goes on standing when out of view
+  double stay_wander = 0.005;      // [m^2/s] growth of the variance of their place on each axis meanwhile
   double initial_speed_sigma = 0.6;    // [m/s] on each axis, of a new track
   double pair_sigma = 0.06;            // [m] of a person's middle between two legs, on each axis
   double leg_sigma = 0.20;             // [m] of a person's middle when one leg is seen
@@ -130,6 +134,7 @@ struct TrackerParams {
   double report_sigma = 0.4;           // [m] a track less certain than this is not reported
   double max_sigma = 1.0;              // [m] a track less certain than this is dropped
   double max_unseen = 6.0;             // [s] a track unseen for longer is dropped
+  double stay_unseen = 20.0;           // [s] of somebody who stands, instead
   double max_delay = 0.25;             // [s] a measurement this much older than the newest is still used
   double person_radius = 0.20;         // [m] half the width that is looked for when nobody is seen
 
@@ -142,6 +147,10 @@ struct TrackerParams {
     v("walking_density", p.walking_density, {1e-6, 100.0});
     v("standing_density", p.standing_density, {1e-6, 100.0});
     v("walking_speed", p.walking_speed, {0.01, 5.0});
+    v("stay_distance", p.stay_distance, {0.01, 5.0});
+    v("stay_time", p.stay_time, {0.0, 600.0});
+    v("stay_speed", p.stay_speed, {0.0, 5.0});
+    v("stay_wander", p.stay_wander, {0.0, 1.0});
     v("initial_speed_sigma", p.initial_speed_sigma, {0.0, 10.0});
     v("pair_sigma", p.pair_sigma, {0.001, 1.0});
     v("leg_sigma", p.leg_sigma, {0.001, 1.0});
@@ -165,6 +174,7 @@ struct TrackerParams {
     v("report_sigma", p.report_sigma, {0.05, 10.0});
     v("max_sigma", p.max_sigma, {0.05, 10.0});
     v("max_unseen", p.max_unseen, {0.1, 600.0});
+    v("stay_unseen", p.stay_unseen, {0.1, 600.0});
     v("max_delay", p.max_delay, {0.0, 2.0});
     v("person_radius", p.person_radius, {0.05, 1.0});
   }

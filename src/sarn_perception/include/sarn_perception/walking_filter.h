@@ -29,6 +29,8 @@ class WalkingFilter {
   void predict(double dt, const WalkingModel& model);
   /// Goes `dt` [s] >= 0 ahead, of somebody who is not seen; `density` [m^2/s^3].
   void predict(double dt, double density);
+  /// Goes `dt` [s] >= 0 ahead, of somebody who stands unseen; as PersonFilter's.
+  void rest(double dt, double wander);
   /// As PersonFilter's.
   void update(const Eigen::Vector2d& position, double sigma, double age);
   [[nodiscard]] Eigen::Matrix2d innovationCovariance(double sigma, double age) const {
