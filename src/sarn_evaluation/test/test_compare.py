@@ -6,7 +6,7 @@ import pytest
 
 import sarn_evaluation.compare as module
 from sarn_evaluation.compare import Cell, compare, markdown, missing_cells, rows
-from sarn_evaluation.run import UsageError
+from sarn_evaluation.run import INTERRUPTED, UsageError
 
 
 def result(success, contacts, duration, share, nearest):
@@ -73,6 +73,18 @@ def test_table_says_what_the_runs_say(tmp_path):
     assert "| crossing | social | 2 | 100.0 % | 0 | 15 | 10.0 % | 0.6 | 0.65 |" in text
     assert "| no data |" in text
     assert not list(tmp_path.glob("**/run.bag"))
+
+
+def test_an_interrupted_run_ends_the_table_and_leaves_no_result(tmp_path):
+    class Interrupted(Driver):
+        def __call__(self, words, runs):
+            super().__call__(words, runs)
+            return INTERRUPTED if len(self.driven) == 2 else 0
+
+    driver = Interrupted()
+    assert compare([], ["social"], 2, tmp_path, drive=driver) == INTERRUPTED
+    assert len(driver.driven) == 2
+    assert len(list(missing_cells(["crossing", "queue"], ["social"], 2, tmp_path))) == 3
 
 
 def test_a_table_that_was_killed_goes_on_where_it_was(tmp_path):

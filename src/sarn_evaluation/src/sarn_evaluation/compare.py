@@ -6,11 +6,12 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import json
+import shutil
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple
 
 from sarn_evaluation.metrics.statistics import summarize
-from sarn_evaluation.run import UsageError, bringup_directory, run, scenario_file
+from sarn_evaluation.run import INTERRUPTED, UsageError, bringup_directory, run, scenario_file
 from sarn_evaluation.scenario import ScenarioError, load_scenario
 from sarn_evaluation.table import NO_DATA, cell
 
@@ -169,7 +170,8 @@ def compare(
         drive: Drives one run.
 
     Returns:
-        Exit code 0 when every run of the table was driven to its end (whether or not it went well).
+        Exit code 0 when every run of the table was driven to its end (whether or not it went well),
+        INTERRUPTED when one was ended from outside.
     """
     if seeds < 1:
         raise UsageError(f"--seeds {seeds}: at least 1")
@@ -189,7 +191,10 @@ def compare(
         )
         run_dir = wanted.directory(folder)
         names = [f"scenario:={wanted.scenario}", f"planner:={wanted.planner}", f"seed:={wanted.seed}"]
-        drive([*base, *names, f"run_dir:={run_dir}"], folder)
+        if drive([*base, *names, f"run_dir:={run_dir}"], folder) == INTERRUPTED:
+            shutil.rmtree(run_dir, ignore_errors=True)  # half a run says nothing
+            print(f"interrupted after {number - 1} of {len(todo)} runs; the same command goes on from here")
+            return INTERRUPTED
         if result_of_cell(wanted, folder) is None:
             failed += 1
             print(f"no result in {run_dir}; it is driven again next time", flush=True)

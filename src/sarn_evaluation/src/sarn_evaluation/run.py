@@ -26,6 +26,7 @@ _ALARM = re.compile(
     r"process has died \[pid \d+, exit code -?[1-9](?!.*scenario_runner)"
 )
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+INTERRUPTED = 130  # exit code of what Ctrl-C ended, as shells have it
 _ROSLAUNCH_PATIENCE = 40.0  # [s] wall; its own limits for its nodes (15 s, 2 s) come first
 
 
@@ -212,7 +213,12 @@ def make_run_dir(runs: Path, name: str, seed: int) -> Path:
 
 
 def run(words: Sequence[str], runs: Path) -> int:
-    """Drives one scenario; exit code 0 when all goals were reached and the robot caused no contact."""
+    """Drives one scenario.
+
+    Returns:
+        Exit code 0 when all goals were reached and the robot caused no contact, INTERRUPTED when it was ended
+        from outside (Ctrl-C), else 1.
+    """
     bringup = bringup_directory()
     launch_file = bringup / "sim.launch"
     arguments = launch_arguments(words, launch_file)
@@ -236,7 +242,9 @@ def run(words: Sequence[str], runs: Path) -> int:
     finished = launch(launch_file, arguments, run_dir)
     recorded = arguments.get("record", "true").lower() not in ("false", "0")
     succeeded = _judge_bag(run_dir) if recorded else _believe_runner(run_dir)
-    return 0 if succeeded and finished else 1
+    if not finished:
+        return INTERRUPTED
+    return 0 if succeeded else 1
 
 
 def run_seeds(words: Sequence[str], runs: Path, count: int) -> int:
@@ -247,7 +255,10 @@ def run_seeds(words: Sequence[str], runs: Path, count: int) -> int:
     failed = 0
     for seed in range(1, count + 1):
         run_dir = folder / f"seed_{seed}"
-        failed += run([*words, f"seed:={seed}", f"run_dir:={run_dir}"], runs) != 0
+        code = run([*words, f"seed:={seed}", f"run_dir:={run_dir}"], runs)
+        if code == INTERRUPTED:
+            return code
+        failed += code != 0
         print(f"--- {seed} of {count} runs, {failed} failed", flush=True)
     print(report(load_results([folder])))
     return 1 if failed else 0
@@ -279,4 +290,7 @@ def _believe_runner(run_dir: Path) -> bool:
     return bool(episode["outcome"] == "success")
 
 
-__all__ = ["ScenarioError", "UsageError", "launch", "launch_arguments", "run", "run_seeds", "scenario_file"]
+__all__ = [
+    "INTERRUPTED", "ScenarioError", "UsageError", "launch", "launch_arguments", "run", "run_seeds",
+    "scenario_file",
+]  # fmt: skip
