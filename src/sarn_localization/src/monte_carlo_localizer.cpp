@@ -22,7 +22,6 @@ namespace sarn_localization {
 namespace {
 
 constexpr std::size_t kFewestBeams = 5;     // a scan with fewer returns says nothing
-constexpr double kLeastCoverage = 0.3;      // [1] in less of a scan than this there may be nothing but people
 constexpr std::size_t kPolled = 20;         // particles that the distance filter asks
 constexpr double kLeastRandomShare = 0.15;  // [1] less is noise of the averages
 constexpr double kGreatestRandomShare =
@@ -94,9 +93,10 @@ struct MonteCarloLocalizer::Impl {
     if (!params.do_beamskip) return scan;
     std::vector<sarn::Pose2D> belief = poll();
     for (sarn::Pose2D& pose : belief) pose = pose * motion;
-    return withoutShortBeams(scan, belief, *walls,
-                             {params.beam_skip_distance, params.beam_skip_threshold,
-                              scan.coverage < kLeastCoverage ? 1.0 : params.beam_skip_error_threshold});
+    return withoutShortBeams(
+        scan, belief, *walls,
+        {params.beam_skip_distance, params.beam_skip_threshold,
+         scan.coverage < params.least_coverage ? 1.0 : params.beam_skip_error_threshold});
   }
 
   void spreadOverMap(const ScanBeams& scan) {
@@ -116,17 +116,35 @@ struct MonteCarloLocalizer::Impl {
         std::min(share, kGreatestRandomShare));
   }
 
+  [[nodiscard]] PoseEstimate belief(const sarn::Pose2D& motion) const {
+    return motionBelief(motion,
+                        {params.odom_alpha1, params.odom_alpha2, params.odom_alpha3, params.odom_alpha4});
+  }
+
+  /// Carries on by odometry where nothing is seen, step by step as with scans: the motion model's noise is of
+  /// short motions. The correction of the odometry stays; how sure it is falls.
+  bool moveBlindly(const sarn::Pose2D& motion, const sarn::Pose2D& robot_in_odom) {
+    if (!estimate || !movedEnough(motion)) return false;
+    filter.move(belief(motion));
+    estimate = PoseEstimate{estimate->pose * motion, heaviestCluster(filter.weightedPoses()).covariance};
+    odom_at_update = robot_in_odom;
+    status = {0, 0, 0.0, monitor.slow(), monitor.fast(), 0.0};
+    return true;
+  }
+
   bool addScan(const sarn::Pose2D& robot_in_odom, const ScanBeams& scan) {
-    if (!walls || knowledge == Knowledge::kNothing || scan.beams.size() < kFewestBeams) return false;
+    if (!walls || knowledge == Knowledge::kNothing) return false;
     const bool anywhere = knowledge == Knowledge::kAnywhere;
+    if (scan.beams.size() < kFewestBeams) {
+      return !anywhere && moveBlindly(sarn::inverse(odom_at_update) * robot_in_odom, robot_in_odom);
+    }
     const sarn::Pose2D motion = anywhere ? sarn::Pose2D{} : sarn::inverse(odom_at_update) * robot_in_odom;
     if (!anywhere && !force_update && !movedEnough(motion)) return false;
     if (anywhere) spreadOverMap(scan);
 
     const ScanLikelihood likelihood(params, anywhere ? scan : withoutPeople(scan, motion));
-    const MotionNoise noise{params.odom_alpha1, params.odom_alpha2, params.odom_alpha3, params.odom_alpha4};
-    const double explained = filter.update(motionBelief(motion, noise), likelihood, *walls);
-    const bool tells = !likelihood.scan().beams.empty() && scan.coverage >= kLeastCoverage;
+    const double explained = filter.update(belief(motion), likelihood, *walls);
+    const bool tells = !likelihood.scan().beams.empty() && scan.coverage >= params.least_coverage;
     const double share = tells ? monitor.add(explained) : 0.0;
     addRandomParticles(share, likelihood.scan());
 

@@ -18,12 +18,15 @@ constexpr double kBinPhi = 0.09;         // [rad]
 
 mrpt::math::TPose2D toMrpt(const sarn::Pose2D& pose) { return {pose.x, pose.y, pose.theta}; }
 
-mrpt::obs::CActionCollection movement(const PoseEstimate& motion) {
+mrpt::poses::CPosePDFGaussian gaussian(const PoseEstimate& motion) {
   mrpt::math::CMatrixDouble33 covariance(motion.covariance);
   for (int i = 0; i < 3; ++i) covariance(i, i) += kLeastVariance;
+  return {mrpt::poses::CPose2D(toMrpt(motion.pose)), covariance};
+}
+
+mrpt::obs::CActionCollection movement(const PoseEstimate& motion) {
   mrpt::obs::CActionRobotMovement2D action;
-  action.poseChange =
-      mrpt::poses::CPosePDFGaussian::Create(mrpt::poses::CPose2D(toMrpt(motion.pose)), covariance);
+  action.poseChange = mrpt::poses::CPosePDFGaussian::Create(gaussian(motion));
   mrpt::obs::CActionCollection actions;
   actions.insert(action);
   return actions;
@@ -71,6 +74,15 @@ double MrptFilter::PF_SLAM_computeObservationLikelihoodForParticle(
   const ScanFit fit = scan_->fit(*walls_, {pose.x(), pose.y(), pose.yaw()});
   explained_sum_ += fit.explained;
   return fit.log_likelihood;
+}
+
+void MrptFilter::move(const PoseEstimate& motion) {
+  const mrpt::poses::CPosePDFGaussian belief = gaussian(motion);
+  mrpt::poses::CPose2D drawn;
+  for (auto& particle : m_particles) {
+    belief.drawSingleSample(drawn);
+    particle.d = (mrpt::poses::CPose2D(particle.d) + drawn).asTPose();
+  }
 }
 
 void MrptFilter::setParticles(const std::vector<sarn::Pose2D>& poses) {

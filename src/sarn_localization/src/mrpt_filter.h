@@ -19,6 +19,9 @@ class MrptFilter : public mrpt::slam::CMonteCarloLocalization2D {
   /// scan. Returns the mean of ScanFit::explained over the particles.
   double update(const PoseEstimate& motion, const ScanLikelihood& scan, const WallDistance& walls);
 
+  /// Moves every particle by a draw of the Gaussian `motion`; nothing was seen, so weights stay.
+  void move(const PoseEstimate& motion);
+
   void setParticles(const std::vector<sarn::Pose2D>& poses);
   /// Adds poses that together have this share (0, 1) of the weight of all.
   void addParticles(const std::vector<sarn::Pose2D>& poses, double share);

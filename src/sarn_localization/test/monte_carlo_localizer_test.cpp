@@ -138,9 +138,39 @@ TEST_F(MonteCarloLocalizerTest, holdsTheCorrectionWithoutReturns) {
   EXPECT_TRUE(localizer_.addScan(drive_.odometry(), drive_.look()));
   const sarn::Pose2D before = localizer_.mapFromOdom().value();
   drive_.step();
+  EXPECT_TRUE(localizer_.addScan(drive_.odometry(), ScanBeams{}));
+  EXPECT_NEAR(localizer_.mapFromOdom()->x, before.x, 1e-12);
+  EXPECT_NEAR(localizer_.mapFromOdom()->theta, before.theta, 1e-12);
+}
+
+TEST_F(MonteCarloLocalizerTest, growsLessCertainAlongTheWayWithoutReturns) {
+  knowStart();
+  for (int i = 0; i < 40; ++i) {
+    drive_.step();
+    localizer_.addScan(drive_.odometry(), drive_.look());
+  }
+  const auto sigma = [&] { return std::sqrt(localizer_.estimate()->covariance(2, 2)); };
+  const double at_first = sigma();
+  for (int i = 0; i < 64; ++i) {  // 8 m
+    drive_.step();
+    localizer_.addScan(drive_.odometry(), ScanBeams{});
+  }
+  EXPECT_GT(sigma(), 1.2 * at_first);
+  // The motion model's noise is of short motions: 8 m taken as one would be 0.36 rad.
+  EXPECT_LT(sigma(), 0.12);
+  for (int i = 0; i < 12; ++i) {
+    drive_.step();
+    localizer_.addScan(drive_.odometry(), drive_.look());
+  }
+  EXPECT_LT(drive_.error(localizer_), 0.15) << "and takes up the thread";
+}
+
+TEST_F(MonteCarloLocalizerTest, staysPutWithoutReturnsAndWithoutMotion) {
+  knowStart();
   EXPECT_FALSE(localizer_.addScan(drive_.odometry(), ScanBeams{}));
-  EXPECT_DOUBLE_EQ(localizer_.mapFromOdom()->x, before.x);
-  EXPECT_DOUBLE_EQ(localizer_.mapFromOdom()->theta, before.theta);
+  localizer_.localizeGlobally();
+  EXPECT_FALSE(localizer_.addScan(drive_.odometry(), ScanBeams{}));
+  EXPECT_FALSE(localizer_.mapFromOdom()) << "anywhere, and nothing seen yet";
 }
 
 TEST_F(MonteCarloLocalizerTest, findsItselfAnywhere) {

@@ -45,7 +45,7 @@ struct LocalizationParams {
   // Scan: likelihood field (Thrun et al. 2005, table 6.3)
   int laser_max_beams = 60;
   double laser_min_range = 0.45;      // [m]
-  double laser_max_range = 6.0;       // [m] farther returns are not used
+  double laser_max_range = 10.0;      // [m] farther returns are not used
   double laser_z_hit = 0.9;           // [1] share of returns that the map explains
   double laser_z_rand = 0.1;          // [1] share that can be anything
   double laser_sigma_hit = 0.06;      // [m] of map and pose quantisation
@@ -63,6 +63,7 @@ struct LocalizationParams {
   // Recovery (augmented MCL: Thrun et al. 2005, table 8.3)
   double recovery_alpha_slow = 0.002;  // [1] weight of a new likelihood in the slow average; 0: no recovery
   double recovery_alpha_fast = 0.1;    // [1] in the fast average; 0: no recovery
+  double least_coverage = 0.3;         // [1] returns in a scan; in fewer there may be nothing but people
   int recovery_candidates = 10000;     // poses from which the likely ones are drawn
 
   template <class Self, class Visitor>
@@ -106,6 +107,7 @@ struct LocalizationParams {
     v("beam_skip_error_threshold", p.beam_skip_error_threshold, {0.0, 1.0});
     v("recovery_alpha_slow", p.recovery_alpha_slow, {0.0, 1.0});
     v("recovery_alpha_fast", p.recovery_alpha_fast, {0.0, 1.0});
+    v("least_coverage", p.least_coverage, {0.0, 1.0});
     v("recovery_candidates", p.recovery_candidates, {100.0, 1e6});
   }
   [[nodiscard]] std::vector<std::string> conflicts() const;

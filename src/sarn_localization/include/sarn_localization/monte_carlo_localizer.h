@@ -50,7 +50,8 @@ class MonteCarloLocalizer {
   void localizeGlobally();
 
   /// Takes a scan, and the odometry at its time. Returns whether the belief was updated: the robot moved far
-  /// enough since the last time (or never has), and the scan has returns to use.
+  /// enough since the last time (or never has). Without returns to use the belief moves by odometry alone,
+  /// less and less certain, and the correction of the odometry stays.
   bool addScan(const sarn::Pose2D& robot_in_odom, const ScanBeams& scan);
 
   /// Heaviest hypothesis of the last update; nothing while nothing is known.
