@@ -101,7 +101,7 @@ void KobukiBase::checkTimeout() {
   if (!motor_power_ || !has_command_ || timed_out_) return;
   if (time() - last_command_time_ <= params_.cmd_vel_timeout + kRounding) return;
   timed_out_ = true;
-  ++timeout_count_;
+  if (command_.v != 0.0 || command_.omega != 0.0) ++timeout_count_;  // who was told to stand stands anyway
   command_ = {};
 }
 

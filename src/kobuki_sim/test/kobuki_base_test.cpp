@@ -115,6 +115,14 @@ TEST(KobukiBase, stopsBetween600And700MillisecondsAfterTheLastCommand) {
   }
 }
 
+TEST(KobukiBase, whoWasToldToStandIsNotStoppedByATimeout) {
+  FreeBase robot;
+  robot.drive(0.3, 0.0, 1.0);
+  robot.drive(0.0, 0.0, 1.0);
+  robot.coast(3.0);
+  EXPECT_EQ(robot.base.timeoutCount(), 0U);
+}
+
 TEST(KobukiBase, doesNotTimeOutBeforeTheFirstCommand) {
   FreeBase robot;
   robot.coast(3.0);

@@ -61,7 +61,7 @@ class KobukiBase {
   [[nodiscard]] std::uint64_t packetCount() const { return packet_count_; }  // grows by one with every packet
   [[nodiscard]] const DriverOdometry& odometry() const { return odometry_; }
   [[nodiscard]] DriverOdometry& odometry() { return odometry_; }
-  [[nodiscard]] std::uint64_t timeoutCount() const { return timeout_count_; }  // command timeouts so far
+  [[nodiscard]] std::uint64_t timeoutCount() const { return timeout_count_; }  // timeouts that stopped it
   [[nodiscard]] bool timedOut() const { return timed_out_; }
 
   // --- Truth

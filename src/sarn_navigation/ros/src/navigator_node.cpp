@@ -257,11 +257,9 @@ void NavigatorNode::digestScans() {
       } else {
         problem = "frame " + scan.header.frame_id + " is tilted";
       }
-    } catch (const tf2::ExtrapolationException& error) {
+    } catch (const tf2::TransformException& error) {
       const bool may_come = scans_.size() < kMaxPendingScans && scan.header.stamp.toSec() > last_now_ - 0.5;
       if (may_come) return;  // its transform is on the way
-      problem = error.what();
-    } catch (const tf2::TransformException& error) {
       problem = error.what();
     }
     if (!problem.empty()) say(scan_line_, scan_subscriber_.getTopic() + ": " + problem);
