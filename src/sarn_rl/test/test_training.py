@@ -410,3 +410,23 @@ def test_interrupt_keeps_the_last_checkpoint(tmp_path: Path) -> None:
     kept = episodes_kept(tmp_path / "run")
     assert 4 <= kept < 160
     assert events(tmp_path / "run", "episode")[-1]["number"] - kept <= 8
+
+
+def test_random_actions_are_held_for_up_to_so_many_steps() -> None:
+    from sarn_rl.training.collector import Collector
+
+    params = tiny(learning=dataclasses.replace(tiny().learning, worlds=500, random_steps=4))
+    collector = Collector(params, params.contract().make_lookahead(), 0)
+    random = np.random.default_rng(0)
+    # All begin at once, nobody begins later: how long the first action is held.
+    lasting = collector._explore(1.0, 17, random)
+    held, steps = collector._held.copy(), lasting.astype(int)
+    assert lasting.all() and set(held) == set(range(17))
+    while lasting.any():
+        lasting = collector._explore(0.0, 17, random)
+        assert (collector._held[lasting] == held[lasting]).all()
+        steps += lasting
+    assert np.bincount(steps, minlength=5)[1:] == pytest.approx(np.full(4, 125), abs=30)
+    begun = np.mean([collector._explore(0.1, 17, random).mean() for _ in range(200)])
+    # Of a cycle of 1 / 0.1 steps of its own (less the one that begins) and 2.5 held ones.
+    assert begun == pytest.approx(2.5 / (9.0 + 2.5), abs=0.02)

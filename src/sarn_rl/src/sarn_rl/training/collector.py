@@ -47,6 +47,9 @@ class Collector:
             params.environment, params.reward, lookahead.kinematics, count, most_people=max(self._crowds)
         )
         self._histories: List[_History] = [_History() for _ in range(count)]
+        # Of a random action that is held: its number, and for how many more steps.
+        self._held: np.ndarray = np.zeros(count, dtype=int)
+        self._left: np.ndarray = np.zeros(count, dtype=int)
         self.next_case = first_case
         self._begin(list(range(count)))
 
@@ -54,9 +57,8 @@ class Collector:
         """One step of all worlds; the episodes that ended with it."""
         state = self._worlds.state
         actions, values = policy.action_values(state)
-        chosen = values.argmax(axis=1)
-        randomly = random.random(len(chosen)) < epsilon
-        chosen = np.where(randomly, random.integers(values.shape[1], size=len(chosen)), chosen)
+        randomly = self._explore(epsilon, values.shape[1], random)
+        chosen = np.where(randomly, self._held, values.argmax(axis=1))
         steps = self._worlds.step(actions[np.arange(len(chosen)), chosen])
         seen = self._lookahead.encode(self._worlds.state)
         ended = np.flatnonzero(steps.outcomes != Outcome.RUNNING)
@@ -68,6 +70,16 @@ class Collector:
         ]
         self._begin([int(world) for world in ended])
         return finished
+
+    def _explore(self, epsilon: float, actions: int, random: np.random.Generator) -> np.ndarray:
+        """(N,) bool: who takes the random action that is held for it (Dabney et al. 2021, ez-greedy)."""
+        count, longest = len(self._held), self._params.learning.random_steps
+        begins = (self._left == 0) & (random.random(count) < epsilon)
+        self._held = np.where(begins, random.integers(actions, size=count), self._held)
+        self._left = np.where(begins, random.integers(1, longest + 1, size=count), self._left)
+        randomly: np.ndarray = self._left > 0
+        self._left = self._left - randomly
+        return randomly
 
     def _finish(self, world: int, outcome: Outcome, time: float) -> Finished:
         history, learning = self._histories[world], self._params.learning
@@ -97,6 +109,7 @@ class Collector:
         seen = self._lookahead.encode(self._worlds.state)
         for world in worlds:
             self._histories[world] = _History()
+            self._left[world] = 0
             self._histories[world].states.append(_row(seen, world))
 
 

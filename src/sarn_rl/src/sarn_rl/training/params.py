@@ -136,8 +136,10 @@ class LearningParams:
         batch_size: transitions of a gradient step.
         learning_rate: of Adam.
         final_learning_rate: at the last episode; falls along a cosine.
-        epsilon_start, epsilon_end: share of random actions, falling linearly over epsilon_episodes.
+        epsilon_start, epsilon_end: probability that a random action begins, falling linearly over
+            epsilon_episodes.
         epsilon_episodes: see above.
+        random_steps: for how many steps a random action is held, at most; all numbers from 1 on are alike.
         return_steps: n of n-step returns; they end before the next random action.
         learn_from_random_actions: whether a state that a random action left is learned from.
         target_rate: share of the way to the learned network that the target network goes in a step.
@@ -168,6 +170,7 @@ class LearningParams:
     epsilon_start: float = 0.5
     epsilon_end: float = 0.1
     epsilon_episodes: int = 3000
+    random_steps: int = 1
     return_steps: int = 1
     learn_from_random_actions: bool = False
     target_rate: float = 0.005
@@ -192,6 +195,7 @@ class LearningParams:
             "final_learning_rate",
             "epsilon_episodes",
             "rehearsal_episodes",
+            "random_steps",
             "return_steps",
             "target_rate",
             "gradient_clip",

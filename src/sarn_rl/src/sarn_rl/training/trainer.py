@@ -34,6 +34,7 @@ from sarn_rl.training.transitions import Transitions, padded
 STATE_FILE = "training_state.pt"
 LAST_FILE = "last.pt"
 BEST_FILE = "best.pt"
+TAUGHT_FILE = "taught.pt"
 LOG_FILE = "log.jsonl"
 LESSONS_FILE = "lessons.pt"
 CONFIG_FILE = "config.yaml"
@@ -44,8 +45,9 @@ FIRST_SELECTION_CASE = 1_000_000
 class Trainer:
     """Trains one network into a directory.
 
-    Writes config.yaml, log.jsonl (a line an event), last.pt and best.pt (best validation), training_state.pt
-    (everything needed to go on) and TensorBoard files. Same parameters and seed: same weights.
+    Writes config.yaml, log.jsonl (a line an event), taught.pt (after imitation), last.pt and best.pt (best
+    validation), training_state.pt (everything needed to go on) and TensorBoard files. Same parameters and
+    seed: same weights.
 
     Args:
         params: what to train.
@@ -95,6 +97,7 @@ class Trainer:
             else:
                 if self._begun_with is None:
                     self._timed("imitation", lambda: self._imitate(demonstrations))
+                    self._save_network(TAUGHT_FILE, {})
                 else:
                     self._take_over(self._begun_with)
                 if self._params.imitation.keep:
