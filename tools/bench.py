@@ -10,8 +10,11 @@ import platform
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Callable, Dict, Iterator, List, Tuple
+
+from process_time import NodeTimes
 
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAMS = ROOT / "devel" / "lib"
@@ -48,6 +51,7 @@ GOALS: Dict[str, Tuple[str, float]] = {
     **{f"tracking.recall.{sensor}": (">", 0.9) for sensor in ("xtion", "lidar")},
     **{f"tracking.velocity_rmse.{sensor}": ("<", 0.15) for sensor in ("xtion", "lidar")},
     **{f"tracking.ghost_s.{sensor}": ("<", 1.0) for sensor in ("xtion", "lidar")},
+    "perception.cpu_cores": ("<", 0.5),
     "stack.realtime_factor": (">", 5.0),
     "stack.dropped_messages": ("<", 0.0),
 }
@@ -203,6 +207,31 @@ def stack() -> Figures:
     return figures
 
 
+def perception() -> Figures:
+    """What perceiving costs: all nodes from depth images at 30 Hz to people and pose, in real time."""
+    shutil.rmtree(RUN, ignore_errors=True)
+    nodes = NodeTimes(
+        ["depthimage_to_laserscan", "people_tracker", "constant_velocity_prediction", "localization"], RUN
+    )
+    perceived = ["people:=tracked", "localization:=mcl", "sensor:=xtion"]
+    arguments = ["scenario:=office", "rate:=1", f"run_dir:={RUN}", *perceived]
+    command = [sys.executable, "-m", "sarn_evaluation", "run", *arguments]
+    with subprocess.Popen(command, stdout=sys.stderr) as run:
+        while run.poll() is None:
+            nodes.look()
+            time.sleep(0.5)
+    try:
+        episode = json.loads((RUN / "episode.json").read_text(encoding="utf-8"))
+    except OSError:
+        raise BenchError(f"the stack did not run; see {RUN / 'launch.log'}") from None
+    shares, real_time_factor = nodes.cores(), episode["real_time_factor"]
+    if not shares or not real_time_factor:
+        raise BenchError(f"the run was too short to measure; see {RUN / 'launch.log'}")
+    # A busy machine's clock runs slower than the wall's.
+    figures = {f"perception.cpu_cores.{node}": share / real_time_factor for node, share in shares.items()}
+    return {"perception.cpu_cores": sum(figures.values()), **figures}
+
+
 def learning() -> Figures:
     """Decisions, collection, gradient steps, one thread; minutes of the shipped training by its record."""
     return _named_values([sys.executable, str(ROOT / "src" / "sarn_rl" / "bench" / "bench_policy.py")])
@@ -226,6 +255,7 @@ BENCHES: Dict[str, Callable[[], Figures]] = {
     "ompl": ompl,
     "learning": learning,
     "tracking": tracking,
+    "perception": perception,
     "stack": stack,
 }
 
