@@ -20,6 +20,7 @@ from sarn_rl.envs.cases import SPLIT_SIZES
 from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.evaluation.episodes import run_cases
 from sarn_rl.reward import RewardParams
+from sarn_rl.training.commit import source_commit
 
 # What is measured, whatever a policy was trained with.
 BENCHMARK_REWARD = RewardParams(discomfort_scaled_by_time_step=True)
@@ -68,6 +69,7 @@ def described(chosen: Chosen, world: EnvironmentParams, peek: bool) -> Dict[str,
         "discomfort_scaled_by_time_step": chosen.reward.discomfort_scaled_by_time_step,
         "discomfort_dist": BENCHMARK_REWARD.discomfort_dist,
         "seed": chosen.seed,
+        "commit": source_commit(),
     }
 
 

@@ -56,7 +56,8 @@ def run(options: argparse.Namespace) -> int:
     if not checkpoints:
         print(f"sarn_rl: {options.models}: no *.pt: baselines only", file=sys.stderr)
     wanted = [path for path in checkpoints if fnmatch.fnmatch(path.stem, options.only or "*")]
-    rows = [row for row in kept if row.get("model") not in {path.name for path in wanted}]
+    stay = {None, *(path.name for path in checkpoints)} - {path.name for path in wanted}
+    rows = [row for row in kept if row.get("model") in stay]
     strangers = Strangers(
         EnvironmentParams(), BENCHMARK_REWARD, options.recordings, options.count or SPLIT_SIZES["test"]
     )
@@ -75,7 +76,7 @@ def _rows_kept(options: argparse.Namespace) -> List[Dict[str, Any]]:
     """Of an earlier table, where only some checkpoints are evaluated again."""
     if options.only is None or options.out is None or not options.out.exists():
         return []
-    rows = json.loads(options.out.read_text(encoding="utf-8"))
+    rows: List[Dict[str, Any]] = json.loads(options.out.read_text(encoding="utf-8"))
     return [row for row in rows if row["seed"] != "mean"]
 
 
@@ -124,7 +125,9 @@ def model_rows(path: Path, count: Any, strangers: Strangers) -> List[Dict[str, A
     if sizes == CROWD_SIZES and chosen.name in STRANGERS_FOR:
         rows.append(_row(chosen, replace(own, people_model="social_force"), count))
         rows += _strangers_rows(chosen, strangers)
-    return [{**row, "model": path.name, "training": training} for row in rows]
+    origin = load_checkpoint(path).origin
+    about = {"model": path.name, "training": training, "trained_by": origin.get("commit", "unknown")}
+    return [{**row, **about} for row in rows]
 
 
 def crowd_sizes(path: Path) -> Sequence[int]:

@@ -48,7 +48,7 @@ def _mean(group: List[Row]) -> Row:
     for name in FIGURES:
         known = [row[name] for row in group if row[name] is not None]
         figures[name] = sum(known) / len(known) if known else None
-    kept = {key: value for key, value in group[0].items() if key not in ("model", "seed")}
+    kept = {key: value for key, value in group[0].items() if key not in ("model", "seed", "trained_by")}
     return {**kept, "seed": "mean", "seeds": sorted(row["seed"] for row in group), **figures}
 
 
