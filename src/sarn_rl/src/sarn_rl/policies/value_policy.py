@@ -21,7 +21,7 @@ from sarn_rl.policies.base import Policy
 CHUNK = 8
 # Actions of SARL whose mirror image is looked at too, where values are means over both: the best by the first
 # look. The other networks are quick and worse: all of their actions are.
-SECOND_LOOK = 27
+SECOND_LOOK = 12
 
 
 class ValuePolicy(Policy):
