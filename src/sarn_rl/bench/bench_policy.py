@@ -87,7 +87,8 @@ def main() -> None:
     seconds = median_seconds(lambda: learner.update(memory, 0.5, random), 200)
     figures["train.gradient_steps_per_s"] = 1.0 / seconds
     figures["train.episodes_per_s"] = episodes_per_second(checkpoint)
-    figures["train.sarl_per.minutes"] = sum(checkpoint.origin["cpu_seconds"].values()) / 60.0
+    run = checkpoint.origin.get("run", checkpoint.origin)
+    figures["train.sarl_per.minutes"] = sum(run["cpu_seconds"].values()) / 60.0
     for name, value in figures.items():
         print(json.dumps({"name": name, "value": value}))
 

@@ -319,6 +319,8 @@ def test_mirror_image_is_left_out_while_learning_if_asked() -> None:
 def test_networks_are_compared_by_more_cases_near_the_end(tmp_path: Path) -> None:
     learning = dataclasses.replace(tiny().learning, selection_cases=30, selection_episode=20)
     trained(tiny(learning=learning), tmp_path)
+    run = load_checkpoint(tmp_path / BEST_FILE).origin["run"]
+    assert run["episodes"] >= 24 and run["cpu_seconds"]["collection"] > 0.0
     judged_by = [entry["judged_by"] for entry in events(tmp_path, "validation")]
     assert judged_by[0] == 20 and judged_by[-1] == 50
     assert load_checkpoint(tmp_path / BEST_FILE).origin["validation"]["judged_by"] == 50

@@ -106,6 +106,7 @@ class Trainer:
             self._learn(memory, demonstrations)
             self._save(memory)
             result = self._validate()
+            self._tell_best_of_the_run()
             self._progress.close()
             return result
 
@@ -320,6 +321,18 @@ class Trainer:
         memory["arrays"] = [array.numpy() for array in memory["arrays"]]
         self._restored = {"memory": memory}
         _keep_log_until(self._directory / LOG_FILE, self._episodes)
+
+    def _tell_best_of_the_run(self) -> None:
+        """The best network was found by the whole run: what that took goes with it."""
+        best = load_checkpoint(self._directory / BEST_FILE)
+        run = {
+            "episodes": self._episodes,
+            "updates": self._learner.updates,
+            "seconds": dict(self._seconds),
+            "cpu_seconds": dict(self._cpu_seconds),
+        }
+        origin = {**best.origin, "run": run}
+        save_checkpoint(self._directory / BEST_FILE, Checkpoint(best.network, best.contract, origin))
 
     def _save_network(self, name: str, validation: Dict[str, Any]) -> None:
         origin = {
