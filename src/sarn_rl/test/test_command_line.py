@@ -97,6 +97,13 @@ def test_table_has_the_papers_figures_and_means_over_seeds(
     assert len(markdown.read_text().splitlines()) == len(rows) + 2
     assert main([*arguments, "--only", "cadrl_seed2"]) == 0
     assert json.loads(out.read_text()) == rows
+    assert main([*arguments, "--only", "cadrl_seed2", "--no-strangers"]) == 0
+    fewer = json.loads(out.read_text())
+    assert sum(row["people_model"] == "orca" and row["policy"] == "cadrl" for row in fewer) == len(crossing)
+    assert sum(row["people_model"] != "orca" for row in fewer) == sum(
+        row["people_model"] != "orca" and row.get("model") != "cadrl_seed2.pt" and row["seed"] != "mean"
+        for row in rows
+    )
 
 
 def test_row_without_a_success_is_json(tmp_path: Path, checkpoint: Path) -> None:

@@ -10,7 +10,7 @@ import re
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Dict, List, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
 import numpy as np
 
@@ -45,6 +45,9 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "--only", metavar="PATTERN", help="checkpoints of such names (sarl_per_*); --out keeps its other rows"
     )
+    parser.add_argument(
+        "--no-strangers", action="store_true", help="with ORCA's people only: half of the time"
+    )
     parser.set_defaults(run=run)
 
 
@@ -58,13 +61,13 @@ def run(options: argparse.Namespace) -> int:
     wanted = [path for path in checkpoints if fnmatch.fnmatch(path.stem, options.only or "*")]
     stay = {None, *(path.name for path in checkpoints)} - {path.name for path in wanted}
     rows = [row for row in kept if row.get("model") in stay]
-    strangers = Strangers(
-        EnvironmentParams(), BENCHMARK_REWARD, options.recordings, options.count or SPLIT_SIZES["test"]
-    )
+    cases = options.count or SPLIT_SIZES["test"]
+    strangers = Strangers(EnvironmentParams(), BENCHMARK_REWARD, options.recordings, cases)
     if options.only is None:
-        rows += baseline_rows(options.count) + orca_among_strangers(strangers)
+        rows += baseline_rows(options.count)
+        rows += [] if options.no_strangers else orca_among_strangers(strangers)
     for path in wanted:
-        rows += model_rows(path, options.count, strangers)
+        rows += model_rows(path, options.count, None if options.no_strangers else strangers)
         _write(options, rows)
     print(as_text(_write(options, rows)))
     for word in strangers.skipped:
@@ -116,13 +119,13 @@ def orca_among_strangers(strangers: Strangers) -> List[Dict[str, Any]]:
     return [{**row, "safety_space": 0.15} for row in _strangers_rows(chosen, strangers)]
 
 
-def model_rows(path: Path, count: Any, strangers: Strangers) -> List[Dict[str, Any]]:
+def model_rows(path: Path, count: Any, strangers: Optional[Strangers]) -> List[Dict[str, Any]]:
     """In the world of its training: with crowds of other sizes; some among other models of people."""
     chosen, own = checkpoint_policy(path), checkpoint_world(path)
     training = re.sub(r"_seed\d+$", "", path.stem)
     sizes = crowd_sizes(path)
     rows = [_row(chosen, replace(own, cases=replace(own.cases, people=size)), count) for size in sizes]
-    if sizes == CROWD_SIZES and chosen.name in STRANGERS_FOR:
+    if strangers is not None and sizes == CROWD_SIZES and chosen.name in STRANGERS_FOR:
         rows.append(_row(chosen, replace(own, people_model="social_force"), count))
         rows += _strangers_rows(chosen, strangers)
     origin = load_checkpoint(path).origin
