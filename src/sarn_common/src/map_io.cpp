@@ -175,6 +175,38 @@ MapSettings readSettings(const fs::path& file) {
   return settings;
 }
 
+/// Shades of grey of map_server's convention, top row first.
+std::vector<std::uint8_t> greyPixels(const OccupancyMap& map) {
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(map.cells.size());
+  for (int row = map.geometry.height - 1; row >= 0; --row) {
+    for (int column = 0; column < map.geometry.width; ++column) {
+      const std::int8_t cell = map.at({column, row});
+      pixels.push_back(cell == kMapUnknown ? 205 : cell >= 65 ? 0 : cell < 20 ? 254 : 205);
+    }
+  }
+  return pixels;
+}
+
+void writePgm(const GridGeometry& grid, const std::vector<std::uint8_t>& pixels, const fs::path& file) {
+  std::ofstream image(file, std::ios::binary);
+  image << "P5\n" << grid.width << " " << grid.height << "\n255\n";
+  for (const std::uint8_t pixel : pixels) image.put(static_cast<char>(pixel));
+  image.close();
+  if (!image) fail(file, "cannot be written");
+}
+
+void writePng(const GridGeometry& grid, const std::vector<std::uint8_t>& pixels, const fs::path& file) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(grid.width);
+  image.height = static_cast<png_uint_32>(grid.height);
+  image.format = PNG_FORMAT_GRAY;
+  if (png_image_write_to_file(&image, file.c_str(), 0, pixels.data(), 0, nullptr) == 0) {
+    fail(file, std::string("cannot be written: ") + image.message);
+  }
+}
+
 }  // namespace
 
 OccupancyMap loadMap(const fs::path& yaml_file) {
@@ -199,19 +231,11 @@ OccupancyMap loadMap(const fs::path& yaml_file) {
 }
 
 void saveMap(const OccupancyMap& map, const fs::path& base) {
-  const fs::path image_file = base.string() + ".pgm";
-  const fs::path yaml_file = base.string() + ".yaml";
-  std::ofstream image(image_file, std::ios::binary);
-  image << "P5\n" << map.geometry.width << " " << map.geometry.height << "\n255\n";
-  for (int row = map.geometry.height - 1; row >= 0; --row) {
-    for (int column = 0; column < map.geometry.width; ++column) {
-      const std::int8_t cell = map.at({column, row});
-      const int grey = cell == kMapUnknown ? 205 : cell >= 65 ? 0 : cell < 20 ? 254 : 205;
-      image.put(static_cast<char>(static_cast<unsigned char>(grey)));
-    }
-  }
-  image.close();
-  if (!image) fail(image_file, "cannot be written");
+  const bool png = base.extension() == ".png";
+  const fs::path image_file = png ? base : fs::path(base.string() + ".pgm");
+  const fs::path yaml_file =
+      png ? fs::path(base).replace_extension(".yaml") : fs::path(base.string() + ".yaml");
+  (png ? writePng : writePgm)(map.geometry, greyPixels(map), image_file);
   std::ofstream yaml(yaml_file);
   yaml << "image: " << image_file.filename().string() << "\nresolution: " << map.geometry.resolution
        << "\norigin: [" << map.geometry.origin_x << ", " << map.geometry.origin_y

@@ -59,6 +59,18 @@ TEST_F(MapIo, loadsWhatItSaved) {
   EXPECT_EQ(loaded.cells, map.cells);
 }
 
+TEST_F(MapIo, savesAPngWhereTheNameSaysSo) {
+  OccupancyMap map({4, 3, 0.05, -1.25, 7.5}, kMapFree);
+  map.at({1, 2}) = kMapOccupied;
+  map.at({3, 0}) = kMapUnknown;
+  saveMap(map, folder_ / "saved.png");
+  EXPECT_FALSE(fs::exists(folder_ / "saved.pgm"));
+  const OccupancyMap loaded = loadMap(folder_ / "saved.yaml");
+  EXPECT_EQ(loaded.geometry, map.geometry);
+  EXPECT_EQ(loaded.cells, map.cells);
+  EXPECT_THROW(saveMap(map, folder_ / "nowhere" / "saved.png"), MapError);
+}
+
 TEST_F(MapIo, namesFileAndKeyOfEachMistake) {
   EXPECT_NE(error(folder_ / "absent.yaml").find("absent.yaml: no such map file"), std::string::npos);
   EXPECT_NE(error(write("a.yaml", "image: [")).find("not valid YAML"), std::string::npos);

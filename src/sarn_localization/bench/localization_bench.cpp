@@ -122,10 +122,8 @@ class Bench {
   /// The pose that the localizer gives for this sample.
   sarn::Pose2D step(MonteCarloLocalizer& localizer, const SimulatedDrive& drive, const DriveSample& sample) {
     const auto begin = std::chrono::steady_clock::now();
-    const auto beams = sarn_localization::selectBeams(
-        sample.scan, drive.baseFromSensor(),
-        {static_cast<std::size_t>(params_.laser_max_beams), params_.laser_min_range, params_.laser_max_range,
-         params_.laser_range_bias});
+    const auto beams =
+        sarn_localization::selectBeams(sample.scan, drive.baseFromSensor(), beamLimits(params_));
     localizer.addScan(sample.robot_in_odom, beams);
     const sarn::Pose2D pose = localizer.mapFromOdom().value_or(sarn::Pose2D{}) * sample.robot_in_odom;
     cpu_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -98,7 +98,7 @@ Eigen::Vector3d motionSigma(const sarn::Pose2D& motion, const SlamParams& p) {
   return {xy, xy, kLeastTheta + p.str * d + p.stt * turn};
 }
 
-/// Every few beams of a scan, with the bias taken off; returns how many are valid. MRPT's grid spreads n
+/// Every few beams of a scan, with the biases taken off; returns how many are valid. MRPT's grid spreads n
 /// beams over an aperture in steps of aperture / n from its edge, its maps of points in steps of aperture /
 /// (n - 1): a quarter of a degree between drawing and matching that would turn the map a little with each
 /// scan. So the aperture here is n steps, and where the beams ended is told by endsOf.
@@ -113,8 +113,9 @@ std::size_t fill(const PlanarScan& scan, const sarn::Pose2D& base_from_sensor, c
   out.aperture = static_cast<float>(std::abs(span));
   out.rightToLeft = span > 0.0;
   out.maxRange = static_cast<float>(p.max_urange);
-  out.sensorPose = mrpt::poses::CPose3D(base_from_sensor.x, base_from_sensor.y, 0.0,
-                                        base_from_sensor.theta + scan.angle_min + 0.5 * span);
+  out.sensorPose = mrpt::poses::CPose3D(
+      base_from_sensor.x, base_from_sensor.y, 0.0,
+      base_from_sensor.theta + scan.angle_min + p.laser_beam_offset * scan.angle_increment + 0.5 * span);
   out.resizeScan(count);
   std::size_t valid = 0;
   for (std::size_t k = 0; k < count; ++k) {

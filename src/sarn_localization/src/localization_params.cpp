@@ -2,16 +2,13 @@
 #include "sarn_localization/localization_params.h"
 
 #include <cmath>
-#include <set>
 
 namespace sarn_localization {
 
 std::vector<std::string> LocalizationParams::conflicts() const {
   std::vector<std::string> problems;
-  const std::set<std::string> frames = {global_frame_id, odom_frame_id, base_frame_id};
-  if (frames.size() != 3 || frames.count("") != 0) {
-    problems.emplace_back("global_frame_id, odom_frame_id, base_frame_id: must be three different names");
-  }
+  checkFrames("global_frame_id, odom_frame_id, base_frame_id", global_frame_id, odom_frame_id, base_frame_id,
+              problems);
   if (min_particles > max_particles) problems.emplace_back("min_particles: must not exceed max_particles");
   if (laser_min_range >= laser_max_range) {
     problems.emplace_back("laser_min_range: must be less than laser_max_range");
@@ -23,6 +20,11 @@ std::vector<std::string> LocalizationParams::conflicts() const {
     problems.emplace_back("recovery_alpha_slow: must be less than recovery_alpha_fast");
   }
   return problems;
+}
+
+BeamLimits beamLimits(const LocalizationParams& params) {
+  return {static_cast<std::size_t>(params.laser_max_beams), params.laser_min_range, params.laser_max_range,
+          params.laser_range_bias, params.laser_beam_offset};
 }
 
 }  // namespace sarn_localization

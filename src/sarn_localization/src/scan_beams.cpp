@@ -33,8 +33,8 @@ ScanBeams selectBeams(const PlanarScan& scan, const sarn::Pose2D& base_from_sens
   }
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = usable[(2 * k + 1) * usable.size() / (2 * count)];
-    const double angle =
-        base_from_sensor.theta + scan.angle_min + static_cast<double>(i) * scan.angle_increment;
+    const double angle = base_from_sensor.theta + scan.angle_min +
+                         (static_cast<double>(i) + limits.beam_offset) * scan.angle_increment;
     const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
     const auto measured = static_cast<double>(scan.ranges[i]);
     const double range = measured + limits.range_bias * measured * measured;

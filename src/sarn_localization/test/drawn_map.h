@@ -41,6 +41,17 @@ inline sarn::OccupancyMap unevenRoom() {
   return map;
 }
 
+/// Every second cell of a map, twice as wide.
+inline sarn::OccupancyMap coarser(const sarn::OccupancyMap& map) {
+  const sarn::GridGeometry& fine = map.geometry;
+  sarn::OccupancyMap half(
+      {fine.width / 2, fine.height / 2, 2.0 * fine.resolution, fine.origin_x, fine.origin_y}, sarn::kMapFree);
+  for (int y = 0; y < half.geometry.height; ++y) {
+    for (int x = 0; x < half.geometry.width; ++x) half.at({x, y}) = map.at({2 * x, 2 * y});
+  }
+  return half;
+}
+
 /// What a sensor without noise at `map_from_sensor` measures: `count` beams over `width` [rad], ahead.
 inline PlanarScan idealScan(const WallDistance& walls, const sarn::Pose2D& map_from_sensor, double width,
                             std::size_t count) {

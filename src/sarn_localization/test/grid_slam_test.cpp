@@ -31,6 +31,7 @@ SlamParams params() {
   p.min_range = 0.1;
   p.max_urange = 8.0;
   p.laser_range_bias = 0.0;
+  p.laser_beam_offset = 0.0;
   return p;
 }
 

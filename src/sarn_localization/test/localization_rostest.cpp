@@ -125,6 +125,10 @@ TEST_F(LocalizationNodeTest, survivesBadInputWithALineEach) {
   for (int i = 0; i < 50; ++i) drive(80);
   EXPECT_GT(warnings("80 beams"), 0);
   EXPECT_LT(error(), 0.2) << "still knows where it is";
+
+  map_.publish(sarn::toMessage(coarser(unevenRoom()), "map"));
+  for (int i = 0; i < 50; ++i) drive();
+  EXPECT_LT(error(), 0.3) << "in a map of another resolution too";
 }
 
 }  // namespace

@@ -14,13 +14,14 @@ namespace sarn_localization {
 namespace {
 
 constexpr double kXtion = 1.02;  // [rad] field of view
-constexpr BeamLimits kLimits{60, 0.1, 8.0, 0.0};
+constexpr BeamLimits kLimits{60, 0.1, 8.0, 0.0, 0.0};
 
 LocalizationParams params() {
   LocalizationParams p;
   p.laser_max_range = 8.0;
   p.laser_min_range = 0.1;
   p.laser_range_bias = 0.0;
+  p.laser_beam_offset = 0.0;
   p.min_particles = 300;
   p.max_particles = 2000;
   return p;
@@ -210,12 +211,7 @@ TEST_F(MonteCarloLocalizerTest, worksOnAFullCircleScan) {
 TEST_F(MonteCarloLocalizerTest, keepsTheBeliefOnANewMap) {
   knowStart();
   EXPECT_TRUE(localizer_.addScan(drive_.odometry(), drive_.look()));
-  const sarn::OccupancyMap room = unevenRoom();
-  sarn::OccupancyMap half({80, 60, 0.1, 0.0, 0.0}, sarn::kMapFree);
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 80; ++x) half.at({x, y}) = room.at({2 * x, 2 * y});
-  }
-  localizer_.setMap(half);
+  localizer_.setMap(coarser(unevenRoom()));
   for (int i = 0; i < 40; ++i) {
     drive_.step();
     localizer_.addScan(drive_.odometry(), drive_.look());

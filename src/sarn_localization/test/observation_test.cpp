@@ -33,6 +33,13 @@ TEST(SelectBeams, placesEndsInBaseAndTakesTheBiasOff) {
   EXPECT_NEAR(beams.beams[0].end.y(), 0.5, 1e-9);
 }
 
+TEST(SelectBeams, turnsBeamsByTheirOffset) {
+  const PlanarScan scan{0.2, 0.1, 0.1, 8.0, {2.0F}};
+  const ScanBeams beams = selectBeams(scan, {}, {10, 0.0, 6.0, 0.0, 0.5});
+  ASSERT_EQ(beams.beams.size(), 1U);
+  EXPECT_NEAR(std::atan2(beams.beams[0].end.y(), beams.beams[0].end.x()), 0.25, 1e-9);
+}
+
 TEST(SelectBeams, spreadsTheChoiceOverTheScan) {
   PlanarScan scan{0.0, 0.01, 0.1, 8.0, std::vector<float>(100, 1.0F)};
   const ScanBeams beams = selectBeams(scan, {}, {4, 0.0, 6.0, 0.0});

@@ -27,7 +27,7 @@ using OccupancyMap = Grid<std::int8_t>;
 /// beside a PGM (P2, P5) or PNG image, whose top row is the largest y. Throws MapError.
 [[nodiscard]] OccupancyMap loadMap(const std::filesystem::path& yaml_file);
 
-/// Writes `base`.yaml and `base`.pgm in map_server's convention. Throws MapError.
+/// Writes base.yaml and base.pgm, or base and its YAML if base is *.png, for map_server. Throws MapError.
 void saveMap(const OccupancyMap& map, const std::filesystem::path& base);
 
 }  // namespace sarn

@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "sarn_common/parameters.h"
+#include "sarn_localization/scan_beams.h"
+#include "sarn_localization/shared_params.h"
 
 namespace sarn_localization {
 
 /// Monte Carlo localisation; the names are amcl's where they mean the same.
-struct LocalizationParams {
+struct LocalizationParams : SharedParams {
   // Frames, used by the node
   std::string global_frame_id = "map";
   std::string odom_frame_id = "odom";
@@ -20,13 +22,9 @@ struct LocalizationParams {
   // Start
   bool set_initial_pose =
       false;                     // true: start at initial_pose_*; false: wait for /initialpose or the service
-  double initial_pose_x = 0.0;   // [m] in map
-  double initial_pose_y = 0.0;   // [m]
-  double initial_pose_a = 0.0;   // [rad]
   double initial_cov_xx = 0.25;  // [m^2]
   double initial_cov_yy = 0.25;  // [m^2]
   double initial_cov_aa = 0.07;  // [rad^2]
-  int random_seed = 1;           // of everything random
 
   // Particles (KLD sampling, Fox 2003)
   int min_particles = 500;
@@ -44,13 +42,12 @@ struct LocalizationParams {
 
   // Scan: likelihood field (Thrun et al. 2005, table 6.3)
   int laser_max_beams = 60;
-  double laser_min_range = 0.45;      // [m]
-  double laser_max_range = 10.0;      // [m] farther returns are not used
-  double laser_z_hit = 0.9;           // [1] share of returns that the map explains
-  double laser_z_rand = 0.1;          // [1] share that can be anything
-  double laser_sigma_hit = 0.06;      // [m] of map and pose quantisation
-  double laser_sigma_range = 0.0015;  // [1/m] sigma of a range r [m] grows by this times r^2
-  double laser_range_bias = 0.0023;  // [1/m] a range r is measured this times r^2 too short (Xtion, ten rows)
+  double laser_min_range = 0.45;           // [m]
+  double laser_max_range = 10.0;           // [m] farther returns are not used
+  double laser_z_hit = 0.9;                // [1] share of returns that the map explains
+  double laser_z_rand = 0.1;               // [1] share that can be anything
+  double laser_sigma_hit = 0.06;           // [m] of map and pose quantisation
+  double laser_sigma_range = 0.0015;       // [1/m] sigma of a range r [m] grows by this times r^2
   double laser_likelihood_max_dist = 1.0;  // [m] distances to walls are cut off here
   double likelihood_exponent = 0.3;        // [1] neighbouring beams err together: (product of beams)^exponent
 
@@ -74,13 +71,10 @@ struct LocalizationParams {
     v("transform_tolerance", p.transform_tolerance, {0.0, 5.0});
     v("tf_broadcast", p.tf_broadcast);
     v("set_initial_pose", p.set_initial_pose);
-    v("initial_pose_x", p.initial_pose_x, {-1e4, 1e4});
-    v("initial_pose_y", p.initial_pose_y, {-1e4, 1e4});
-    v("initial_pose_a", p.initial_pose_a, {-6.3, 6.3});
+    visitShared(p, v);
     v("initial_cov_xx", p.initial_cov_xx, {0.0, 100.0});
     v("initial_cov_yy", p.initial_cov_yy, {0.0, 100.0});
     v("initial_cov_aa", p.initial_cov_aa, {0.0, 10.0});
-    v("random_seed", p.random_seed, {0.0, 2147483647.0});
     v("min_particles", p.min_particles, {10.0, 1e6});
     v("max_particles", p.max_particles, {10.0, 1e6});
     v("kld_err", p.kld_err, {1e-4, 1.0});
@@ -98,7 +92,6 @@ struct LocalizationParams {
     v("laser_z_rand", p.laser_z_rand, {1e-4, 1.0});
     v("laser_sigma_hit", p.laser_sigma_hit, {0.005, 1.0});
     v("laser_sigma_range", p.laser_sigma_range, {0.0, 0.1});
-    v("laser_range_bias", p.laser_range_bias, {-0.1, 0.1});
     v("laser_likelihood_max_dist", p.laser_likelihood_max_dist, {0.05, 10.0});
     v("likelihood_exponent", p.likelihood_exponent, {0.001, 1.0});
     v("do_beamskip", p.do_beamskip);
@@ -112,5 +105,8 @@ struct LocalizationParams {
   }
   [[nodiscard]] std::vector<std::string> conflicts() const;
 };
+
+/// Which beams of a scan localisation looks at.
+[[nodiscard]] BeamLimits beamLimits(const LocalizationParams& params);
 
 }  // namespace sarn_localization

@@ -34,16 +34,18 @@ struct ScanBeams {
 
 struct BeamLimits {
   std::size_t max_beams = 60;
-  double min_range = 0.0;   // [m]
-  double max_range = 6.0;   // [m]
-  double range_bias = 0.0;  // [1/m] a range r is measured range_bias * r^2 too short
+  double min_range = 0.0;    // [m]
+  double max_range = 6.0;    // [m]
+  double range_bias = 0.0;   // [1/m] a range r is measured range_bias * r^2 too short
+  double beam_offset = 0.0;  // [beams] what a beam shows lies this far on
 };
 
 /// At most max_beams returns within both the sensor's and our limits, evenly spread over those there are,
-/// with the bias taken off. What is not finite is left out.
+/// with the biases taken off. What is not finite is left out.
 ///
 /// A scan from a band of rows of a structured-light camera is biased: the nearest of ten rows wins, each with
-/// a noise that grows with the square of the range (Nguyen et al. 2012).
+/// a noise that grows with the square of the range (Nguyen et al. 2012). And depthimage_to_laserscan, as the
+/// public node, files a pixel under the beam that begins before it, so that bearings are half a beam short.
 [[nodiscard]] ScanBeams selectBeams(const PlanarScan& scan, const sarn::Pose2D& base_from_sensor,
                                     const BeamLimits& limits);
 

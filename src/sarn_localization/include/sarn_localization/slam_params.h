@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "sarn_common/parameters.h"
+#include "sarn_localization/shared_params.h"
 
 namespace sarn_localization {
 
 /// Grid mapping with particles; the names are gmapping's where they mean the same.
-struct SlamParams {
+struct SlamParams : SharedParams {
   // Frames and rates, used by the node
   std::string map_frame = "map";
   std::string odom_frame = "odom";
@@ -18,28 +19,23 @@ struct SlamParams {
   double map_update_interval = 2.0;  // [s] between published maps
 
   // Particles
-  int particles = 10;
+  int particles = 30;
   double resample_threshold = 0.5;  // [1] effective share of the particles below which they are resampled
   double linear_update = 0.2;       // [m] of motion before a scan is used
   double angular_update = 0.15;     // [rad]
-  int random_seed = 1;              // of everything random
-  double initial_pose_x = 0.0;      // [m] in map, where the first scan is taken
-  double initial_pose_y = 0.0;      // [m]
-  double initial_pose_a = 0.0;      // [rad]
 
   // Motion: standard deviations per motion
   double srr = 0.01;   // [m/m] of translation, from translation
   double srt = 0.005;  // [m/rad] of translation, from rotation
-  double str = 0.005;  // [rad/m] of rotation, from translation
-  double stt = 0.01;   // [rad/rad] of rotation, from rotation
+  double str = 0.001;  // [rad/m] of rotation, from translation
+  double stt = 0.003;  // [rad/rad] of rotation, from rotation
 
   // Scan and map
-  double max_urange = 6.0;           // [m] farther returns are not used
-  double min_range = 0.45;           // [m]
-  double laser_range_bias = 0.0023;  // [1/m] a range r is measured this times r^2 too short (Xtion, ten rows)
-  int lskip = 1;                     // beams left out between two that are used
-  double sigma = 0.05;               // [m] of a return around its wall
-  double match_reach = 0.16;         // [m] walls up to about twice as far off still pull a scan
+  double max_urange = 6.0;      // [m] farther returns are not used
+  double min_range = 0.45;      // [m]
+  int lskip = 1;                // beams left out between two that are used
+  double sigma = 0.05;          // [m] of a return around its wall
+  double match_reach = 0.16;    // [m] walls up to about twice as far off still pull a scan
   double match_exponent = 1.0;  // [1] neighbouring beams err together: (product of beams)^exponent, of poses
   double likelihood_exponent =
       0.03;                 // [1] neighbouring beams err together: (product of beams)^exponent, of weights
@@ -61,17 +57,13 @@ struct SlamParams {
     v("resampleThreshold", p.resample_threshold, {0.0, 1.0});
     v("linearUpdate", p.linear_update, {0.0, 5.0});
     v("angularUpdate", p.angular_update, {0.0, 6.3});
-    v("random_seed", p.random_seed, {0.0, 2147483647.0});
-    v("initial_pose_x", p.initial_pose_x, {-1e4, 1e4});
-    v("initial_pose_y", p.initial_pose_y, {-1e4, 1e4});
-    v("initial_pose_a", p.initial_pose_a, {-6.3, 6.3});
+    visitShared(p, v);
     v("srr", p.srr, {0.0, 1.0});
     v("srt", p.srt, {0.0, 1.0});
     v("str", p.str, {0.0, 1.0});
     v("stt", p.stt, {0.0, 1.0});
     v("maxUrange", p.max_urange, {0.1, 200.0});
     v("minRange", p.min_range, {0.0, 100.0});
-    v("laser_range_bias", p.laser_range_bias, {-0.1, 0.1});
     v("lskip", p.lskip, {0.0, 1000.0});
     v("sigma", p.sigma, {0.005, 1.0});
     v("match_reach", p.match_reach, {0.02, 1.0});
@@ -86,10 +78,7 @@ struct SlamParams {
   }
   [[nodiscard]] std::vector<std::string> conflicts() const {
     std::vector<std::string> problems;
-    if (map_frame.empty() || odom_frame.empty() || base_frame.empty() || map_frame == odom_frame ||
-        odom_frame == base_frame || map_frame == base_frame) {
-      problems.emplace_back("map_frame, odom_frame, base_frame: must be three different names");
-    }
+    checkFrames("map_frame, odom_frame, base_frame", map_frame, odom_frame, base_frame, problems);
     if (xmin >= xmax || ymin >= ymax) problems.emplace_back("xmin, ymin: must be less than xmax, ymax");
     if (min_range >= max_urange) problems.emplace_back("minRange: must be less than maxUrange");
     return problems;

@@ -84,10 +84,7 @@ void LocalizationNode::use(const ScanIntake::Input& input) {
   if (!localizer_.hasMap()) {
     ROS_WARN_STREAM_THROTTLE(kWarningPeriod, map_subscriber_.getTopic() << ": no map yet; scans wait for it");
   }
-  const ScanBeams beams =
-      selectBeams(input.scan, input.base_from_sensor,
-                  {static_cast<std::size_t>(params_.laser_max_beams), params_.laser_min_range,
-                   params_.laser_max_range, params_.laser_range_bias});
+  const ScanBeams beams = selectBeams(input.scan, input.base_from_sensor, beamLimits(params_));
   if (localizer_.addScan(input.robot_in_odom, beams)) publishPose(input.stamp);
   broadcast(input.stamp);
 }
