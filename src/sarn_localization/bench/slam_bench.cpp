@@ -25,6 +25,49 @@ double percentile(std::vector<double> values, double share) {
                         : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
+/// Distances [m] of points, turned about their middle and moved by `shift`, to the surfaces of walls.
+std::vector<double> wallErrors(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& middle,
+                               const sarn::Pose2D& shift, const sarn_localization::WallDistance& walls) {
+  std::vector<double> errors;
+  errors.reserve(points.size());
+  for (const Eigen::Vector2d& point : points)
+    errors.push_back(walls.at(middle + shift * (point - middle), 1.0));
+  return errors;
+}
+
+/// The same errors after the map was laid onto the true one as well as it goes, as a rigid whole: how true it
+/// is in itself, whatever way the robot's first look took it to lie.
+std::vector<double> alignedErrors(const std::vector<Eigen::Vector2d>& points,
+                                  const sarn_localization::WallDistance& walls) {
+  constexpr double kFar = 0.3;      // [m] errors beyond count alike
+  constexpr double kLever = 0.1;    // [rad/m] of steps
+  constexpr double kFinest = 0.01;  // [m]
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& point : points) middle += point / static_cast<double>(points.size());
+  const auto cost = [&](const sarn::Pose2D& shift) {
+    double sum = 0.0;
+    for (const double error : wallErrors(points, middle, shift, walls)) sum += std::min(error, kFar);
+    return sum;
+  };
+  sarn::Pose2D best;
+  double least = cost(best);
+  for (double step = 0.08; step >= kFinest;) {
+    const sarn::Pose2D before = best;
+    for (const sarn::Pose2D& way : {sarn::Pose2D{step, 0.0, 0.0}, sarn::Pose2D{0.0, step, 0.0},
+                                    sarn::Pose2D{0.0, 0.0, kLever * step}}) {
+      for (const double sign : {-1.0, 1.0}) {
+        const sarn::Pose2D next{best.x + sign * way.x, best.y + sign * way.y, best.theta + sign * way.theta};
+        const double value = cost(next);
+        if (value >= least) continue;
+        least = value;
+        best = next;
+      }
+    }
+    if (before.x == best.x && before.y == best.y && before.theta == best.theta) step *= 0.5;
+  }
+  return wallErrors(points, middle, best, walls);
+}
+
 int run(const std::filesystem::path& launch, std::uint64_t seed, const char* output,
         sarn_localization::SlamParams params) {
   constexpr double kTimeLimit = 900.0;  // [s]
@@ -56,17 +99,20 @@ int run(const std::filesystem::path& launch, std::uint64_t seed, const char* out
   const auto map = slam.map();
   if (!map) throw std::runtime_error("no map was built");
   const sarn_localization::WallDistance truth(drive.world().map().map());
-  std::vector<double> errors;
+  std::vector<Eigen::Vector2d> occupied;  // [m] in the world
   for (int y = 0; y < map->geometry.height; ++y) {
     for (int x = 0; x < map->geometry.width; ++x) {
       if (map->at({x, y}) != sarn::kMapOccupied) continue;
-      errors.push_back(truth.at(world_from_map * map->geometry.center({x, y}), 1.0));
+      occupied.push_back(world_from_map * map->geometry.center({x, y}));
     }
   }
   std::fprintf(stderr,
                "seed %d: %.0f s, %.0f m, %d scans used, pose error %.3f m at the end, %.3f m at most\n",
                static_cast<int>(seed), sample.time, drive.driven(), used, error, greatest_error);
+  const std::vector<double> errors = wallErrors(occupied, Eigen::Vector2d::Zero(), {}, truth);
   std::printf("{\"slam.wall_error_m.p95\": %.4f}\n", percentile(errors, 0.95));
+  std::printf("{\"slam.wall_error_aligned_m.p95\": %.4f}\n",
+              percentile(alignedErrors(occupied, truth), 0.95));
   std::printf("{\"slam.wall_error_m.median\": %.4f}\n", percentile(errors, 0.5));
   std::printf("{\"slam.loop_error_m\": %.4f}\n", error);
   if (output != nullptr) sarn::saveMap(*map, output);
