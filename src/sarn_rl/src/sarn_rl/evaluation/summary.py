@@ -26,14 +26,14 @@ Row = Dict[str, Any]
 
 
 def means(rows: Sequence[Row]) -> List[Row]:
-    """For each setting that several seeds were trained for: the mean of their rows, seed "mean".
+    """For each setting and number of cases with several seeds: the mean of their rows, seed "mean".
 
     A time is the mean of the seeds that arrived at all.
     """
     groups: Dict[Tuple[Any, ...], List[Row]] = {}
     for row in rows:
         if "training" in row and row["seed"] != "mean":
-            groups.setdefault(setting(row), []).append(row)
+            groups.setdefault((*setting(row), row["cases"]), []).append(row)
     return [_mean(group) for group in groups.values() if len(group) > 1]
 
 
