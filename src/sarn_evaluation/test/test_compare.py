@@ -73,6 +73,7 @@ def test_table_says_what_the_runs_say(tmp_path):
     assert "| crossing | social | 2 | 100.0 % | 0 | 15 | 10.0 % | 0.6 | 0.65 |" in text
     assert "| no data |" in text
     assert not list(tmp_path.glob("**/run.bag"))
+    assert (tmp_path / "compare.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_an_interrupted_run_ends_the_table_and_leaves_no_result(tmp_path):

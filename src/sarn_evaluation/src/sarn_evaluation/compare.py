@@ -10,6 +10,7 @@ import shutil
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple
 
+from sarn_evaluation.compare_picture import draw
 from sarn_evaluation.metrics.statistics import summarize
 from sarn_evaluation.run import INTERRUPTED, UsageError, bringup_directory, run, scenario_file
 from sarn_evaluation.scenario import ScenarioError, load_scenario
@@ -204,5 +205,6 @@ def compare(
     table = rows(usable, planners, seeds, folder)
     _write(folder, table)
     print(markdown(table), end="")
-    print(f"tables: {folder / 'compare.json'}, {folder / 'compare.md'}")
+    draw(table, folder / "compare.png")
+    print(f"tables: {folder / 'compare.json'}, {folder / 'compare.md'}; picture: {folder / 'compare.png'}")
     return 1 if failed else 0
