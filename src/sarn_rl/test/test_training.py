@@ -402,7 +402,13 @@ def test_full_disk_keeps_the_last_checkpoint(tmp_path: Path) -> None:
 
 def test_interrupt_keeps_the_last_checkpoint(tmp_path: Path) -> None:
     command = train_command(tmp_path, long_and_small())
-    running = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    # Tests that run in the background of a shell are told to ignore it, and so would be what they start.
+    running = subprocess.Popen(
+        command,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     while not (tmp_path / "run" / STATE_FILE).exists() and running.poll() is None:
         time.sleep(0.02)
     running.send_signal(signal.SIGINT)
