@@ -32,3 +32,11 @@ def crowd() -> JointState:
     people[..., 4] = random.uniform(0.2, 0.4, (4, 4))
     present = np.arange(4) < np.array([0, 1, 3, 4])[:, None]
     return JointState(robots, people * present[..., None], present)
+
+
+@pytest.fixture
+def few_validation_cases(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Trainings validate by 20 cases."""
+    from sarn_rl.training import trainer
+
+    monkeypatch.setitem(trainer.SPLIT_SIZES, "validation", 20)

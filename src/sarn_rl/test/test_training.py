@@ -1,91 +1,34 @@
 # SPDX-License-Identifier: BSD-3-Clause
+"""Trainings learn, repeat, and keep the network that they should."""
+
 from __future__ import annotations
 
 import dataclasses
 import io
-import json
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
-from typing import Any, Dict, List
+from typing import Any
 
 import numpy as np
 import pytest
 import torch
+from tiny_training import events, same, tiny, trained, weights
 
 from sarn_rl.actions import ActionParams, Kinematics
 from sarn_rl.checkpoint import CheckpointError, load_checkpoint
-from sarn_rl.declared import ParameterError, to_dict
 from sarn_rl.envs.cases import CaseParams
 from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.networks.params import NetworkParams
-from sarn_rl.training import trainer as trainer_module
-from sarn_rl.training.learner import DivergedError, Learner
+from sarn_rl.training.learner import Learner
 from sarn_rl.training.params import (
     ImitationParams,
     LearningParams,
     ReplayParams,
     TeacherParams,
     TrainingParams,
-    load_params,
 )
-from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, LOG_FILE, STATE_FILE, Trainer
+from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, STATE_FILE, Trainer
 
-# The policy node's configuration lies beside those of training.
-CONFIGS = sorted(
-    path
-    for path in (Path(__file__).resolve().parents[1] / "config").glob("*.yaml")
-    if "\nlearning:" in path.read_text(encoding="utf-8")
-)
-
-
-@pytest.fixture(autouse=True)
-def few_validation_cases(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(trainer_module.SPLIT_SIZES, "validation", 20)
-
-
-def tiny(**changes: Any) -> TrainingParams:
-    """A few seconds of training: one person, a small action set."""
-    return dataclasses.replace(
-        TrainingParams(
-            seed=3,
-            actions=ActionParams(speeds=2, headings=8),
-            network=NetworkParams("cadrl"),
-            environment=EnvironmentParams(cases=CaseParams(people=1), time_limit=15.0),
-            imitation=ImitationParams(episodes=20, epochs=2, batch_size=64),
-            replay=ReplayParams(capacity=3000),
-            learning=LearningParams(
-                episodes=24,
-                worlds=4,
-                updates_per_step=1,
-                batch_size=16,
-                target_rate=0.05,
-                validation_episodes=12,
-                checkpoint_episodes=12,
-                epsilon_episodes=24,
-            ),
-        ),
-        **changes,
-    )
-
-
-def trained(params: TrainingParams, directory: Path, resume: bool = False) -> Dict[str, float]:
-    return Trainer(params, directory, resume, io.StringIO()).run()
-
-
-def events(directory: Path, kind: str) -> List[Dict[str, Any]]:
-    lines = (directory / LOG_FILE).read_text(encoding="utf-8").splitlines()
-    return [entry for entry in map(json.loads, lines) if entry["event"] == kind]
-
-
-def weights(path: Path) -> Dict[str, torch.Tensor]:
-    return load_checkpoint(path).network.state_dict()
-
-
-def same(one: Dict[str, torch.Tensor], other: Dict[str, torch.Tensor]) -> bool:
-    return all(torch.equal(one[key], other[key]) for key in one)
+pytestmark = pytest.mark.usefixtures("few_validation_cases")
 
 
 def test_training_learns_what_imitation_left(tmp_path: Path) -> None:
@@ -139,102 +82,6 @@ def test_robots_that_turn_train_too(tmp_path: Path, kinematics: Kinematics) -> N
     actions = ActionParams(kinematics=kinematics, speeds=2, headings=5)
     trained(tiny(actions=actions), tmp_path)
     assert load_checkpoint(tmp_path / LAST_FILE).contract.actions.kinematics is kinematics
-
-
-class Killed(BaseException):
-    pass
-
-
-def test_killed_run_goes_on_from_its_checkpoint(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    original = Trainer._count
-
-    def count_and_die(self: Trainer, episode: Any) -> None:
-        original(self, episode)
-        if self._episodes == 20:
-            raise Killed
-
-    monkeypatch.setattr(Trainer, "_count", count_and_die)
-    with pytest.raises(Killed):
-        trained(tiny(), tmp_path)
-    monkeypatch.setattr(Trainer, "_count", original)
-    kept = torch.load(tmp_path / STATE_FILE, weights_only=True)["episodes"]
-    assert 12 <= kept < 20
-    with pytest.raises(CheckpointError, match="--resume"):
-        trained(tiny(), tmp_path)
-    with (tmp_path / LOG_FILE).open("a", encoding="utf-8") as log:
-        log.write('{"event": "episode", "num')
-    trained(tiny(), tmp_path, resume=True)
-    numbers = [entry["number"] for entry in events(tmp_path, "episode")]
-    assert numbers == list(range(1, len(numbers) + 1)) and len(numbers) >= 24
-    assert load_checkpoint(tmp_path / LAST_FILE).origin["episodes"] == len(numbers)
-
-
-def test_resuming_with_other_parameters_is_refused(tmp_path: Path) -> None:
-    trained(tiny(), tmp_path)
-    with pytest.raises(CheckpointError, match="gamma: "):
-        trained(tiny(gamma=0.8), tmp_path, resume=True)
-
-
-def test_nan_stops_and_keeps_the_last_good_checkpoint(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    original = Learner.update
-
-    def poisoned(self: Learner, *arguments: Any) -> float:
-        if self.updates == 250:
-            with torch.no_grad():
-                next(self.network.parameters()).mul_(float("nan"))
-        return original(self, *arguments)
-
-    monkeypatch.setattr(Learner, "update", poisoned)
-    params = tiny(learning=dataclasses.replace(tiny().learning, episodes=200, checkpoint_episodes=4))
-    with pytest.raises(DivergedError, match="not finite after 250 updates"):
-        trained(params, tmp_path)
-    assert all(bool(torch.isfinite(value).all()) for value in weights(tmp_path / LAST_FILE).values())
-    assert np.isfinite(load_checkpoint(tmp_path / BEST_FILE).origin["validation"]["mean_return"])
-
-
-@pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.name)
-def test_shipped_configuration_has_every_key_and_no_problem(path: Path) -> None:
-    import yaml
-
-    document = yaml.safe_load(path.read_text(encoding="utf-8"))
-    assert to_dict(load_params(path)) == document
-
-
-@pytest.mark.parametrize(
-    "text, message",
-    [
-        ("lerning: {episodes: 3}", "lerning: unknown key"),
-        ("learning: {episodes: 3, worlds: 0}", "learning.worlds: 0 is not > 0"),
-        ("learning: {episodes: many}", "learning.episodes: expected int, got 'many'"),
-        ("environment: {cases: {people: -1}}", "environment.cases.people: -1 is not in"),
-        ("actions: {kinematics: flying}", "actions.kinematics: 'flying' is none of holonomic"),
-        ("gamma: .nan", "gamma: expected float"),
-        ("gamma: 2.0", "gamma: 2.0 is not in (0, 1)"),
-        ("network: [1, 2]", "network: expected keys and values"),
-        ("a: [", "not YAML"),
-    ],
-)
-def test_bad_configuration_is_named(tmp_path: Path, text: str, message: str) -> None:
-    path = tmp_path / "bad.yaml"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(ParameterError) as caught:
-        load_params(path)
-    assert message in str(caught.value) and str(path) in str(caught.value)
-
-
-def test_missing_configuration_is_named(tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match="cannot be read"):
-        load_params(tmp_path / "none.yaml")
-
-
-def test_all_problems_are_told_at_once(tmp_path: Path) -> None:
-    path = tmp_path / "bad.yaml"
-    path.write_text("replay: {alpha: 2.0}\nlearning: {worlds: 0, epsilon_end: -1.0}\n", encoding="utf-8")
-    with pytest.raises(ParameterError) as caught:
-        load_params(path)
-    assert len(str(caught.value).splitlines()) == 3
 
 
 def test_target_network_is_the_running_mean_of_the_learned_one() -> None:
@@ -355,69 +202,6 @@ def test_lessons_are_shared_by_runs_that_are_taught_alike(
     lessons.write_bytes(b"not lessons")
     with pytest.raises(CheckpointError, match=r"lessons\.pt: cannot be read"):
         Trainer(taught_params(), tmp_path / "again", out=io.StringIO(), lessons=lessons).run()
-
-
-def train_command(directory: Path, params: TrainingParams) -> List[str]:
-    import yaml
-
-    config = directory / "config.yaml"
-    config.write_text(yaml.safe_dump(to_dict(params)), encoding="utf-8")
-    out = str(directory / "run")
-    return [sys.executable, "-m", "sarn_rl", "train", "--config", str(config), "--out", out, "--resume"]
-
-
-def long_and_small() -> TrainingParams:
-    learning = dataclasses.replace(
-        tiny().learning, episodes=160, checkpoint_episodes=4, validation_episodes=1000
-    )
-    return tiny(learning=learning)
-
-
-def episodes_kept(directory: Path) -> int:
-    """Of the last checkpoint; everything that it needs can be read."""
-    load_checkpoint(directory / LAST_FILE)
-    episodes: int = torch.load(directory / STATE_FILE, weights_only=True)["episodes"]
-    return episodes
-
-
-def test_full_disk_keeps_the_last_checkpoint(tmp_path: Path) -> None:
-    """No file may grow beyond 600 kB: the state does, with its memory. Then there is room again."""
-    import resource
-
-    def no_room() -> None:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (600_000, resource.RLIM_INFINITY))
-
-    command = train_command(tmp_path, long_and_small())
-    full = subprocess.run(command, stderr=subprocess.PIPE, text=True, preexec_fn=no_room, check=False)
-    assert full.returncode == 1
-    last = full.stderr.splitlines()[-1]
-    assert last.startswith("sarn_rl: ") and f"{STATE_FILE}: cannot be written" in last
-    kept = episodes_kept(tmp_path / "run")
-    told = events(tmp_path / "run", "episode")[-1]["number"]
-    assert 4 <= kept < 160 and told - kept <= 8
-    assert not list((tmp_path / "run").glob("*.part"))
-    assert subprocess.run(command, stderr=subprocess.PIPE, check=False).returncode == 0
-    assert episodes_kept(tmp_path / "run") >= 160
-
-
-def test_interrupt_keeps_the_last_checkpoint(tmp_path: Path) -> None:
-    command = train_command(tmp_path, long_and_small())
-    # Tests that run in the background of a shell are told to ignore it, and so would be what they start.
-    running = subprocess.Popen(
-        command,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )
-    while not (tmp_path / "run" / STATE_FILE).exists() and running.poll() is None:
-        time.sleep(0.02)
-    running.send_signal(signal.SIGINT)
-    said = running.communicate()[1]
-    assert running.returncode == 130
-    assert said.splitlines()[-1] == "sarn_rl: interrupted; what was checkpointed is kept"
-    kept = episodes_kept(tmp_path / "run")
-    assert 4 <= kept < 160
-    assert events(tmp_path / "run", "episode")[-1]["number"] - kept <= 8
 
 
 def test_random_actions_are_held_for_up_to_so_many_steps() -> None:
