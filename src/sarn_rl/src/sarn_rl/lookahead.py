@@ -119,7 +119,7 @@ class Lookahead:
         begin = state.people[:, None, :, :2] - state.robots[:, None, None, :2]
         end = people_after[:, None, :, :2] - after[:, :, None, :2]
         radii = state.people[:, None, :, RADIUS] + state.robots[:, None, None, RADIUS]
-        gaps = closest_distance(np.broadcast_to(begin, end.shape), end) - radii
+        gaps = closest_distance(begin, end) - radii
         gaps = np.where(state.present[:, None, :], gaps, np.inf)
         smallest: np.ndarray = gaps.min(axis=-1)
         return smallest

@@ -78,13 +78,16 @@ def norm_reward(
 
 
 def closest_distance(begin: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """Smallest distance [m] to the origin of segments from begin (..., 2) to end (..., 2)."""
-    motion = end - begin
-    length = np.einsum("...k,...k->...", motion, motion)
-    along = -np.einsum("...k,...k->...", begin, motion)
-    at = np.clip(along / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
-    nearest = begin + at[..., None] * motion
-    return np.sqrt(np.einsum("...k,...k->...", nearest, nearest))
+    """Smallest distance [m] to the origin of segments from begin (..., 2) to end (..., 2);
+    leading axes are broadcast."""
+    begin_x, begin_y = begin[..., 0], begin[..., 1]
+    motion_x, motion_y = end[..., 0] - begin_x, end[..., 1] - begin_y
+    squared = motion_x * motion_x + motion_y * motion_y
+    along = -(begin_x * motion_x + begin_y * motion_y)
+    at = np.minimum(np.maximum(along, 0.0) / np.where(squared > 0.0, squared, 1.0), 1.0)
+    nearest_x, nearest_y = begin_x + at * motion_x, begin_y + at * motion_y
+    distance: np.ndarray = np.sqrt(nearest_x * nearest_x + nearest_y * nearest_y)
+    return distance
 
 
 def discounted(gamma: float, time_step: float, preferred_speed: np.ndarray) -> np.ndarray:
