@@ -204,6 +204,21 @@ def test_lessons_are_shared_by_runs_that_are_taught_alike(
         Trainer(taught_params(), tmp_path / "again", out=io.StringIO(), lessons=lessons).run()
 
 
+def test_a_directory_of_lessons_has_a_file_for_each_way_of_being_taught(tmp_path: Path) -> None:
+    place = tmp_path / "runs" / "lessons"
+    network = NetworkParams("sarl")
+    for name, params in (
+        ("one", taught_params()),
+        ("another_seed", taught_params(seed=4)),
+        ("another_network", taught_params(network=network)),
+        ("another_gamma", taught_params(gamma=0.8)),
+    ):
+        Trainer(params, tmp_path / name, out=io.StringIO(), lessons=place).run()
+    assert len(list(place.iterdir())) == 2
+    for name, found in ("one", False), ("another_network", True), ("another_gamma", False):
+        assert ("lessons" in load_checkpoint(tmp_path / name / LAST_FILE).origin["cpu_seconds"]) == found
+
+
 def test_random_actions_are_held_for_up_to_so_many_steps() -> None:
     from sarn_rl.training.collector import Collector
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import time
 from pathlib import Path
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
@@ -95,6 +97,14 @@ def taught_by(params: TrainingParams) -> Dict[str, Any]:
     parts = ("gamma", "actions", "environment", "teacher")
     everything = to_dict(params)
     return {part: everything[part] for part in parts}
+
+
+def lessons_file(params: TrainingParams, place: Path) -> Path:
+    """`place` if that is a *.pt; else in this directory the file of all trainings that are taught alike."""
+    if place.suffix == ".pt":
+        return place
+    about = json.dumps(taught_by(params), sort_keys=True, default=str)
+    return place / f"lessons_{hashlib.sha256(about.encode()).hexdigest()[:12]}.pt"
 
 
 def _kept_lessons(cache: Path, about: Dict[str, Any]) -> Optional[Dict[str, Any]]:

@@ -24,7 +24,15 @@ from sarn_rl.networks.packed import packed
 from sarn_rl.policies.value_policy import ValuePolicy
 from sarn_rl.training.collector import Collector, Finished
 from sarn_rl.training.commit import source_commit
-from sarn_rl.training.imitation import Demonstrations, cosine, demonstrate, imitate, rehearse, taught
+from sarn_rl.training.imitation import (
+    Demonstrations,
+    cosine,
+    demonstrate,
+    imitate,
+    lessons_file,
+    rehearse,
+    taught,
+)
 from sarn_rl.training.learner import DivergedError, Learner
 from sarn_rl.training.params import TrainingParams
 from sarn_rl.training.progress import ProgressLine
@@ -55,7 +63,8 @@ class Trainer:
         resume: goes on from training_state.pt if it is there.
         out: where progress is shown.
         begin_with: checkpoint whose weights are taken instead of imitating.
-        lessons: where lessons are kept, for several runs that are taught alike; in the directory if None.
+        lessons: where lessons are kept: a file (*.pt) of runs that are taught alike, or a directory with a file
+            for each way of being taught; in the run's directory if None.
     """
 
     def __init__(
@@ -68,7 +77,7 @@ class Trainer:
         lessons: Optional[Path] = None,
     ) -> None:
         self._params, self._directory = params, Path(directory)
-        self._lessons = self._directory / LESSONS_FILE if lessons is None else Path(lessons)
+        self._lessons = lessons_file(params, Path(lessons or self._directory / LESSONS_FILE))
         self._progress = ProgressLine(out)
         self._contract = params.contract()
         self._lookahead = self._contract.make_lookahead()
@@ -273,7 +282,8 @@ class Trainer:
     # --- What is kept
 
     def _prepare_directory(self, resume: bool) -> None:
-        self._directory.mkdir(parents=True, exist_ok=True)
+        for directory in (self._directory, self._lessons.parent):
+            directory.mkdir(parents=True, exist_ok=True)
         state = self._directory / STATE_FILE
         if resume and state.exists():
             self._restore(state)
