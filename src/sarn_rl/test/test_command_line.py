@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -67,15 +68,18 @@ def test_evaluate_says_whether_the_policy_peeked(checkpoint: Path, capsys: pytes
         assert json.loads(capsys.readouterr().out)["lookahead"] == name
 
 
+def save_untrained(path: Path, kind: str, seed: int) -> None:
+    torch.manual_seed(seed)
+    contract = Contract(network=NetworkParams(kind))
+    origin = {"seed": seed, "configuration": {"environment": to_dict(EnvironmentParams())}}
+    save_checkpoint(path, Checkpoint(make_network(contract.network, 5, 0.9), contract, origin))
+
+
 def test_table_has_the_papers_figures_and_means_over_seeds(
     tmp_path: Path, capsys: pytest.CaptureFixture
 ) -> None:
-    torch.manual_seed(4)
-    contract = Contract(network=NetworkParams("cadrl"))
     for seed in (1, 2):
-        origin = {"seed": seed, "configuration": {"environment": to_dict(EnvironmentParams())}}
-        checkpoint = Checkpoint(make_network(contract.network, 5, 0.9), contract, origin)
-        save_checkpoint(tmp_path / f"cadrl_seed{seed}.pt", checkpoint)
+        save_untrained(tmp_path / f"cadrl_seed{seed}.pt", "cadrl", seed)
     out, markdown = tmp_path / "build" / "table.json", tmp_path / "table.md"
     arguments = ["table", "--models", str(tmp_path), "--count", "2", "--out", str(out)]
     assert main([*arguments, "--markdown", str(markdown)]) == 0
@@ -94,7 +98,7 @@ def test_table_has_the_papers_figures_and_means_over_seeds(
     shown = capsys.readouterr().out
     assert shown.count("0.99 / 0.054 / 10.78") == 3
     assert "recorded people: skipped" in shown
-    assert len(markdown.read_text().splitlines()) == len(rows) + 2
+    assert len(markdown.read_text().splitlines()) == len(rows) + 4
     assert main([*arguments, "--only", "cadrl_seed2"]) == 0
     assert json.loads(out.read_text()) == rows
     assert main([*arguments, "--only", "cadrl_seed2", "--no-strangers"]) == 0
@@ -104,6 +108,59 @@ def test_table_has_the_papers_figures_and_means_over_seeds(
         row["people_model"] != "orca" and row.get("model") != "cadrl_seed2.pt" and row["seed"] != "mean"
         for row in rows
     )
+
+
+def test_table_goes_on_where_it_was_interrupted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    from sarn_rl.cli import table_rows
+
+    for seed in (1, 2):
+        save_untrained(tmp_path / f"lstm_rl_seed{seed}.pt", "lstm_rl", seed)
+    out = tmp_path / "table.json"
+    arguments = ["table", "--models", str(tmp_path), "--count", "1", "--out", str(out), "--no-strangers"]
+    original, measured, most = table_rows.run_cases, [], [11]
+
+    def until_killed(*given: Any) -> Any:
+        if len(measured) == most[0]:
+            raise KeyboardInterrupt
+        measured.append(given)
+        return original(*given)
+
+    monkeypatch.setattr(table_rows, "run_cases", until_killed)
+    assert main(arguments) != 0
+    assert [row["policy"] for row in json.loads(out.read_text())].count("lstm_rl") == 2
+    measured.clear()
+    most[0] = 100
+    assert main([*arguments, "--resume"]) == 0
+    assert len(measured) == 2
+    rows = json.loads(out.read_text())
+    assert len(rows) == 9 + 4 + 2
+    save_untrained(tmp_path / "lstm_rl_seed2.pt", "lstm_rl", 3)
+    measured.clear()
+    assert main([*arguments, "--resume"]) == 0
+    assert len(measured) == 2
+    measured.clear()
+    assert main([*arguments, "--resume", "--only", "lstm_rl_seed2", "--count", "2"]) == 0
+    assert len(measured) == 2 and len(json.loads(out.read_text())) == 9 + 4
+    capsys.readouterr()
+    assert main(["table", "--models", str(tmp_path), "--resume"]) == 1
+    assert "--resume" in capsys.readouterr().err
+    out.write_text("[1]")
+    assert main([*arguments, "--resume"]) == 1
+    assert "table.json is not a table" in capsys.readouterr().err
+
+
+def test_table_says_which_side_sarl_takes(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    save_untrained(tmp_path / "sarl_seed1.pt", "sarl", 1)
+    out = tmp_path / "table.json"
+    arguments = ["table", "--models", str(tmp_path), "--count", "1", "--out", str(out), "--only", "sarl_*"]
+    assert main([*arguments, "--no-strangers"]) == 0
+    rows = {row["crowd"]: row for row in json.loads(out.read_text())}
+    assert set(rows) == {"circle_crossing", "head_on", "overtaking"}
+    for kind in ("head_on", "overtaking"):
+        shares = [rows[kind][name] for name in ("right_hand", "left_hand", "never_passed", "collision")]
+        assert rows[kind]["humans"] == 1 and sum(shares) == 1.0
 
 
 def test_row_without_a_success_is_json(tmp_path: Path, checkpoint: Path) -> None:

@@ -20,7 +20,9 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint in --out")
     parser.add_argument("--begin-with", type=Path, help="checkpoint whose weights to go on from")
     parser.add_argument(
-        "--lessons", type=Path, help="file (*.pt) of lessons for runs taught alike, or directory of such files"
+        "--lessons",
+        type=Path,
+        help="file (*.pt) of lessons for runs taught alike, or directory of such files",
     )
     parser.set_defaults(run=run)
 

@@ -93,7 +93,7 @@ def run_worlds(
         discount: of a step, of the returns.
         peek: whether the policy is told where people will be after its step.
     """
-    record = _Record(len(worlds), discount)
+    record = EpisodeRecord(len(worlds), discount)
     while record.running.any():
         live = np.flatnonzero(record.running)
         after = worlds.people_after()[live] if peek else None
@@ -103,7 +103,13 @@ def run_worlds(
     return record.episodes()
 
 
-class _Record:
+class EpisodeRecord:
+    """Adds up steps of episodes that run side by side.
+
+    Attributes:
+        running: (C,) bool: those that have not ended.
+    """
+
     def __init__(self, count: int, discount: float) -> None:
         self.running = np.ones(count, dtype=bool)
         self._discount = discount
@@ -115,6 +121,7 @@ class _Record:
         self._returns = np.zeros(count)
 
     def add(self, steps: Steps, times: np.ndarray) -> None:
+        """A step of all, and the times [s] (C,) after it; who has ended stays as it is."""
         live = self.running.copy()
         self._returns[live] += self._discount ** self._steps[live] * steps.rewards[live]
         self._steps[live] += 1

@@ -11,6 +11,7 @@ import numpy as np
 from sarn_rl.envs.cases import Case, case_seed
 from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.envs.worlds import Outcome, Worlds
+from sarn_rl.evaluation.episodes import EpisodeRecord, Episodes
 from sarn_rl.joint_state import PX, PY
 from sarn_rl.policies.base import Policy
 from sarn_rl.reward import RewardParams
@@ -30,50 +31,49 @@ def side_case(kind: str, number: int, radius: float) -> Case:
 
 
 def sides(policy: Policy, world: EnvironmentParams, reward: RewardParams, count: int) -> List[Dict[str, Any]]:
-    """For each kind: the share of cases on the right-hand norm's side, on the other, never passed, collided.
+    """For each kind, what came of the cases, and the share of them on each side."""
+    return [{"kind": kind, **side_summary(policy, world, reward, kind, count)} for kind in KINDS]
+
+
+def side_summary(
+    policy: Policy, world: EnvironmentParams, reward: RewardParams, kind: str, count: int
+) -> Dict[str, Any]:
+    """Outcomes, and the share of cases on the right-hand norm's side, on the other, never passed.
 
     Right-hand norm: who comes towards the robot is passed on the robot's right (is on its left then), who is
     slower is overtaken on the left.
     """
-    return [_row(policy, world, reward, kind, count) for kind in KINDS]
-
-
-def _row(
-    policy: Policy, world: EnvironmentParams, reward: RewardParams, kind: str, count: int
-) -> Dict[str, Any]:
     speed = SLOW * world.cases.robot_speed if kind == "overtaking" else world.cases.people_speed
     world = replace(world, cases=replace(world.cases, people=1, people_speed=speed))
     worlds = Worlds(world, reward, policy.kinematics, count)
     cases = [side_case(kind, number, world.cases.circle_radius) for number in range(count)]
     worlds.begin(range(count), cases, list(range(count)))
-    aside, collided = _crossings(policy, worlds)
+    aside, episodes = _crossings(policy, worlds)
     robot_is_right = aside > 0.0
     kept = robot_is_right if kind == "head_on" else (aside < 0.0)
-    passed = ~np.isnan(aside)
+    passed, collided = ~np.isnan(aside), episodes.outcomes == Outcome.COLLISION
     return {
-        "kind": kind,
-        "cases": count,
+        **episodes.summary(),
         "right_hand": float((kept & passed).mean()),
         "left_hand": float((~kept & passed).mean()),
         "never_passed": float((~passed & ~collided).mean()),
-        "collision": float(collided.mean()),
     }
 
 
-def _crossings(policy: Policy, worlds: Worlds) -> Tuple[np.ndarray, np.ndarray]:
-    """(robot's x minus the person's [m] when it first is as far north, NaN if never; whether it collided)."""
+def _crossings(policy: Policy, worlds: Worlds) -> Tuple[np.ndarray, Episodes]:
+    """Robot's x minus the person's [m] when it first is as far north, NaN if never or collided; outcomes."""
     count = len(worlds)
-    aside, collided = np.full(count, np.nan), np.zeros(count, dtype=bool)
-    running = np.ones(count, dtype=bool)
-    while running.any():
-        live = np.flatnonzero(running)
+    aside = np.full(count, np.nan)
+    record = EpisodeRecord(count, 1.0)
+    while record.running.any():
+        before = record.running.copy()
+        live = np.flatnonzero(before)
         actions = np.zeros((count, 2))
         actions[live] = policy.act(worlds.state.select(live))
-        steps = worlds.step(actions)
+        record.add(worlds.step(actions), worlds.times)
         robots, people = worlds.state.robots, worlds.state.people[:, 0]
-        level = running & np.isnan(aside) & (robots[:, PY] >= people[:, PY])
+        level = before & np.isnan(aside) & (robots[:, PY] >= people[:, PY])
         aside[level] = (robots[:, PX] - people[:, PX])[level]
-        collided |= running & (steps.outcomes == Outcome.COLLISION)
-        running &= steps.outcomes == Outcome.RUNNING
-    aside[collided] = np.nan
-    return aside, collided
+    episodes = record.episodes()
+    aside[episodes.outcomes == Outcome.COLLISION] = np.nan
+    return aside, episodes

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A policy among people that no policy here was trained with: their rows of the table."""
+"""A policy among people that no policy here was trained with."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional
 
 from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.envs.replayed import ReplayedWorlds, Walk
@@ -15,6 +15,8 @@ from sarn_rl.reward import RewardParams
 
 # Cases drawn from each recording.
 RECORDED_CASES = 150
+# What the names of JuPedSim's crowds begin with.
+JUPEDSIM = "jupedsim_"
 
 
 class Strangers:
@@ -34,56 +36,53 @@ class Strangers:
     ) -> None:
         self._world, self._reward = world, reward
         self._recordings, self._count = recordings, count
-        self._made: Optional[List[Tuple[str, List[Walk]]]] = None
-        self.skipped: List[str] = []
+        self._made: Dict[str, List[Walk]] = {}
 
-    def rows(self, policy: Policy, discount: float) -> List[Dict[str, Any]]:
-        """A row a crowd: its name, and what came of the cases."""
-        found = []
-        cases = self._world.cases
-        for name, walks in self._crowds():
-            worlds = ReplayedWorlds(
-                walks,
-                policy.kinematics,
-                cases.robot_radius,
-                cases.people_radius,
-                cases.robot_speed,
-                self._world.time_step,
-                self._world.time_limit,
-                self._reward,
-            )
-            found.append({"people_model": name, **run_worlds(policy, worlds, discount).summary()})
-        return found
+    def names(self) -> List[str]:
+        """Of the crowds that are there."""
+        models = [f"{JUPEDSIM}{model}" for model in jupedsim_crowd.MODELS]
+        return [*(models if jupedsim_crowd.is_available() else []), *self._files()]
 
-    def _crowds(self) -> List[Tuple[str, List[Walk]]]:
-        if self._made is None:
-            self._made = [*self._of_jupedsim(), *self._recorded()]
-        return self._made
-
-    def _of_jupedsim(self) -> List[Tuple[str, List[Walk]]]:
+    def skipped(self) -> List[str]:
+        """A word for each kind of crowd that is not there."""
+        words = []
         if not jupedsim_crowd.is_available():
-            self.skipped.append(
-                "JuPedSim's people: skipped, jupedsim is not installed (requirements/strangers.txt)"
-            )
-            return []
-        world = self._world
-        numbers = range(self._count)
-        return [
-            (
-                f"jupedsim_{model}",
-                jupedsim_crowd.walks(world.cases, model, "test", numbers, world.time_step, world.time_limit),
-            )
-            for model in jupedsim_crowd.MODELS
-        ]
+            words.append("JuPedSim's people: skipped, jupedsim is not installed (requirements/strangers.txt)")
+        if not self._files():
+            words.append(f"recorded people: skipped, there is no *.txt in {self._recordings}")
+        return words
 
-    def _recorded(self) -> List[Tuple[str, List[Walk]]]:
-        directory, count = self._recordings, min(self._count, RECORDED_CASES)
-        files = sorted(directory.glob("*.txt")) if directory is not None else []
-        if not files:
-            self.skipped.append(f"recorded people: skipped, there is no *.txt in {directory}")
-        crowds = []
-        for path in files:
-            ways = recorded.read_ways(path, self._world.time_step)
-            walks = recorded.walks(ways, count, self._world.time_step, self._world.time_limit)
-            crowds.append((f"recorded_{path.stem}", walks))
-        return crowds
+    def summary(self, name: str, policy: Policy, discount: float) -> Dict[str, Any]:
+        """What came of the cases in one of these crowds."""
+        cases = self._world.cases
+        worlds = ReplayedWorlds(
+            self._walks(name),
+            policy.kinematics,
+            cases.robot_radius,
+            cases.people_radius,
+            cases.robot_speed,
+            self._world.time_step,
+            self._world.time_limit,
+            self._reward,
+        )
+        return run_worlds(policy, worlds, discount).summary()
+
+    def _files(self) -> Dict[str, Path]:
+        files = sorted(self._recordings.glob("*.txt")) if self._recordings is not None else []
+        return {f"recorded_{path.stem}": path for path in files}
+
+    def _walks(self, name: str) -> List[Walk]:
+        if name not in self._made:
+            self._made[name] = self._make(name)
+        return self._made[name]
+
+    def _make(self, name: str) -> List[Walk]:
+        world = self._world
+        if name.startswith(JUPEDSIM):
+            model = name[len(JUPEDSIM) :]
+            numbers = range(self._count)
+            return jupedsim_crowd.walks(
+                world.cases, model, "test", numbers, world.time_step, world.time_limit
+            )
+        ways = recorded.read_ways(self._files()[name], world.time_step)
+        return recorded.walks(ways, min(self._count, RECORDED_CASES), world.time_step, world.time_limit)

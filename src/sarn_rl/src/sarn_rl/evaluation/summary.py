@@ -8,7 +8,17 @@ from typing import Any, Dict, List, Sequence, Tuple
 # Betancourt et al., Table I: success, collision, time to goal [s]. Its rates do not add up to 1.
 PAPER = {"sarl": (0.99, 0.018, 11.23), "cadrl": (0.99, 0.054, 10.78), "lstm_rl": (0.58, 0.63, 22.94)}
 # What is averaged over seeds.
-FIGURES = ("success", "collision", "timeout", "time_s", "discomfort", "mean_return")
+FIGURES = (
+    "success",
+    "collision",
+    "timeout",
+    "time_s",
+    "discomfort",
+    "mean_return",
+    "right_hand",
+    "left_hand",
+    "never_passed",
+)
 HEAD = (
     "policy",
     "humans",
@@ -19,8 +29,11 @@ HEAD = (
     "timeout",
     "time [s]",
     "discomfort",
+    "right side",
     "paper (s/c/t)",
 )
+# Crowds that go without saying.
+USUAL_CROWD, USUAL_PEOPLE = "circle_crossing", "orca"
 
 Row = Dict[str, Any]
 
@@ -45,10 +58,11 @@ def setting(row: Row) -> Tuple[Any, ...]:
 
 def _mean(group: List[Row]) -> Row:
     figures = {}
-    for name in FIGURES:
+    for name in [name for name in FIGURES if name in group[0]]:
         known = [row[name] for row in group if row[name] is not None]
         figures[name] = sum(known) / len(known) if known else None
-    kept = {key: value for key, value in group[0].items() if key not in ("model", "seed", "trained_by")}
+    own = ("model", "sha256", "seed", "trained_by")
+    kept = {key: value for key, value in group[0].items() if key not in own}
     return {**kept, "seed": "mean", "seeds": sorted(row["seed"] for row in group), **figures}
 
 
@@ -79,7 +93,21 @@ def as_text(rows: Sequence[Row]) -> str:
 
 def as_markdown(rows: Sequence[Row]) -> str:
     lines = [HEAD, ("---",) * len(HEAD), *(_cells(row) for row in rows)]
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+    return f"{_origin(rows)}\n\n" + "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
+def _origin(rows: Sequence[Row]) -> str:
+    """By which commits the rows were measured, and what the columns are."""
+    commits: Dict[str, int] = {}
+    for row in rows:
+        if row["seed"] != "mean":
+            commits[row["commit"]] = commits.get(row["commit"], 0) + 1
+    measured = ", ".join(f"{count} rows at commit {name}" for name, count in commits.items())
+    return (
+        f"Made by tools/table: {measured}. Test cases, the robot invisible unless said, people predicted at "
+        "constant velocity. Time: of those that arrived. Discomfort: share of the steps nearer than 0.2 m. "
+        "Right side: share of cases in which one person is passed or overtaken on the right-hand norm's side."
+    )
 
 
 def _cells(row: Row) -> Tuple[str, ...]:
@@ -93,6 +121,7 @@ def _cells(row: Row) -> Tuple[str, ...]:
         *(f"{row[key]:.3f}" for key in ("success", "collision", "timeout")),
         "" if row["time_s"] is None else f"{row['time_s']:.2f}",
         f"{row['discomfort']:.4f}",
+        f"{row['right_hand']:.2f}" if "right_hand" in row else "",
         "{:.2f} / {:.3f} / {:.2f}".format(*theirs) if theirs else "",
     )
 
@@ -101,9 +130,11 @@ def _name(row: Row) -> str:
     name = str(row.get("training", row["policy"]))
     name += f" {row['safety_space']:g}" if "safety_space" in row else ""
     name += " visible" if row["visible"] else ""
-    name += "" if row["people_model"] == "orca" else f" among {row['people_model']}"
+    name += "" if row["people_model"] == USUAL_PEOPLE else f" among {row['people_model']}"
+    name += "" if row["crowd"] == USUAL_CROWD else f", {row['crowd']}"
     return name + (" peek" if row["lookahead"] == "peek" else "")
 
 
 def _is_papers(row: Row) -> bool:
-    return bool(row["humans"] == 5 and row["people_model"] == "orca" and row["kinematics"] == "holonomic")
+    usual = row["people_model"] == USUAL_PEOPLE and row["crowd"] == USUAL_CROWD and not row["visible"]
+    return bool(row["humans"] == 5 and usual and row["kinematics"] == "holonomic")

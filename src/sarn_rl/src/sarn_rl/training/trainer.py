@@ -63,8 +63,8 @@ class Trainer:
         resume: goes on from training_state.pt if it is there.
         out: where progress is shown.
         begin_with: checkpoint whose weights are taken instead of imitating.
-        lessons: where lessons are kept: a file (*.pt) of runs that are taught alike, or a directory with a file
-            for each way of being taught; in the run's directory if None.
+        lessons: where lessons are kept: a file (*.pt) of runs that are taught alike, or a directory with a
+            file for each way of being taught; in the run's directory if None.
     """
 
     def __init__(
