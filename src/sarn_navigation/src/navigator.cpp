@@ -8,6 +8,7 @@
 
 #include "lattice_planner/commit.h"
 #include "sarn_navigation/reachable_area.h"
+#include "sarn_navigation/waiting_people.h"
 #include "sarn_navigation/yield_spot.h"
 
 namespace sarn_navigation {
@@ -23,6 +24,9 @@ constexpr double kStayTime = 1.5;           // [s] a plan that does not move for
 constexpr double kStayDistance = 0.10;      // [m]
 constexpr double kYieldPause = 2.0;         // [s] between two attempts to move aside
 constexpr double kYieldClearance = 0.9;     // [m] people this near to the old place have not passed yet
+constexpr double kWaitingDistance = 0.8;    // [m] people wait this near to a robot in their way
+constexpr double kExpectation = 0.5;        // [s] until costs know that they wait
+constexpr double kClearTime = 2.0;          // [s] nobody wants to pass for this long: nobody does
 
 double approach(double value, double step) {
   return value > 0.0 ? std::max(0.0, value - step) : std::min(0.0, value + step);
@@ -58,12 +62,12 @@ std::string Navigator::setGoal(const sarn::Pose2D& goal, const NavigatorInput& i
   if (cost >= sarn::kInscribedObstacle) return "goal " + at(goal) + " is in an obstacle or too near to one";
   goal_ = goal;
   goal_lengths_ = pathLengths(*input.scene, goal.position());
-  yield_.reset();
   recovery_.reset();
   recoveries_ = 0;
   plan_failure_.clear();
   status_.deadline_misses = 0;
   progress_.reset(input.now);
+  if (yield_) return {};  // first lets the person pass
   ++task_;
   next_plan_time_ = input.now;
   setState(NavigatorState::kPlanning);
@@ -89,6 +93,11 @@ void Navigator::reset() {
 void Navigator::observe(const sarn::PeoplePrediction& people) {
   people_ = people;
   yield_monitor_.observe(people);
+  if (yield_) yield_->watch.observe(people);
+}
+
+sarn::PeoplePrediction Navigator::expected(const sarn::PeoplePrediction& people) const {
+  return yield_ ? waitingInFrontOf(position_, kWaitingDistance, people) : people;
 }
 
 void Navigator::dropPlan() {
@@ -125,6 +134,7 @@ sarn::Twist2D Navigator::step(const NavigatorInput& input) {
 }
 
 sarn::Twist2D Navigator::decide(const NavigatorInput& input) {
+  position_ = input.pose.position();
   const bool moves =
       std::abs(input.twist.v) > kStandingSpeed || std::abs(input.twist.omega) > kStandingTurnRate;
   if (moves) still_since_ = input.now;
@@ -209,6 +219,7 @@ std::optional<sarn::TrajectoryPoint> Navigator::planStart(const NavigatorInput& 
 void Navigator::planWhenDue(const NavigatorInput& input) {
   if (worker_.busy() || input.now < next_plan_time_) return;
   if (yield_ && yield_->reached) return;
+  if (yield_ && input.scene == yield_->before && input.now - yield_->start < kExpectation) return;
   const bool arriving = !trajectory_.empty() && trajectory_status_ == PlanStatus::kComplete &&
                         trajectory_.endTime() - input.now < kArrivalTime && trajectory_task_ == task_;
   if (arriving) return;
@@ -293,14 +304,12 @@ void Navigator::recoverOrGiveUp(const NavigatorInput& input, const std::string& 
 void Navigator::superviseYield(const NavigatorInput& input) {
   if (!params_.yield_enabled || recovery_.active()) return;
   if (yield_) {
-    const bool timed_out = input.now - yield_->start > params_.yield_timeout;
-    const bool somebody_there =
-        std::any_of(people_.people.begin(), people_.people.end(), [&](const sarn::PersonPrediction& person) {
-          return !person.states.empty() &&
-                 (person.states.front().position - yield_->origin).norm() < kYieldClearance;
-        });
-    const bool passed = !yield_monitor_.blockedBy(yield_->origin) && !somebody_there;
-    if (timed_out || (passed && input.now - yield_->start > kSettleTime)) endYield(input.now);
+    if (yield_->reached || distanceToWay(input.pose.position(), yield_->person) >= params_.yield_distance)
+      yield_->watch.robotIsAside(input.now);
+    if (!wayIsClear(input.now)) yield_->clear_since = input.now;
+    const bool nobody_comes = input.now - yield_->clear_since > kClearTime;
+    if (yield_->watch.seenBeyond() || nobody_comes || input.now - yield_->start > params_.yield_timeout)
+      endYield(input.now);
     return;
   }
   if (!standsStill(input) || input.now < yield_retry_time_) return;
@@ -312,11 +321,24 @@ void Navigator::superviseYield(const NavigatorInput& input) {
   if (const auto person = yield_monitor_.blockedBy(input.pose.position())) startYield(input, *person);
 }
 
+/// Nobody is on the way through the place where the robot stood.
+bool Navigator::wayIsClear(double now) const {
+  const bool somebody_there =
+      std::any_of(people_.people.begin(), people_.people.end(), [&](const sarn::PersonPrediction& person) {
+        return !person.states.empty() &&
+               (person.states.front().position - yield_->origin).norm() < kYieldClearance;
+      });
+  return !yield_monitor_.blockedBy(yield_->origin) && !somebody_there && !yield_->watch.mayStillCome(now);
+}
+
 void Navigator::startYield(const NavigatorInput& input, const BlockedPerson& person) {
   yield_retry_time_ = input.now + kYieldPause;
   const auto spot = findYieldSpot(input.pose, person, *input.scene, params_);
   if (!spot) return;
-  yield_ = Yield{*spot, input.pose.position(), input.now, false};
+  const Eigen::Vector2d origin = input.pose.position();
+  yield_ = Yield{*spot,      person, origin, input.now, input.now, PassingWatch(person, origin, input.now),
+                 input.scene};
+  expectation_changed_ = true;
   dropPlan();
   next_plan_time_ = input.now;
   setState(NavigatorState::kYielding, "moves aside for " + person.name);
@@ -324,6 +346,7 @@ void Navigator::startYield(const NavigatorInput& input, const BlockedPerson& per
 
 void Navigator::endYield(double now) {
   yield_.reset();
+  expectation_changed_ = true;
   dropPlan();
   progress_.touch(now);
   next_plan_time_ = now;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sarn_navigation/yield_monitor.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sarn_navigation {
@@ -12,6 +13,12 @@ constexpr double kHaltDistance = 1.5;   // [m] a person halted by the robot stan
 constexpr double kForgetAfter = 2.0;    // [s] unseen people are dropped
 
 }  // namespace
+
+double distanceToWay(const Eigen::Vector2d& p, const BlockedPerson& person) {
+  const Eigen::Vector2d direction = person.velocity.normalized();
+  const double ahead = std::max(0.0, direction.dot(p - person.position));
+  return (p - person.position - ahead * direction).norm();
+}
 
 void YieldMonitor::observe(const sarn::PeoplePrediction& people) {
   stamp_ = people.stamp;

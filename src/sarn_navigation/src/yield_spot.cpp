@@ -13,13 +13,6 @@ constexpr std::uint8_t kQuietCost = 60;        // a spot's static cost stays bel
 constexpr std::uint8_t kUndisturbedCost = 30;  // and its social cost in every layer
 constexpr double kSpotMargin = 0.25;           // [m] beyond yield_distance
 
-/// Distance [m] from p to the half-line on which the person walks.
-double distanceToWay(const Eigen::Vector2d& p, const BlockedPerson& person) {
-  const Eigen::Vector2d direction = person.velocity.normalized();
-  const double ahead = std::max(0.0, direction.dot(p - person.position));
-  return (p - person.position - ahead * direction).norm();
-}
-
 bool undisturbed(std::size_t cell, const sarn::TimedCostmapView& view) {
   return std::all_of(view.layers.begin(), view.layers.end(),
                      [&](const std::uint8_t* layer) { return layer[cell] < kUndisturbedCost; });

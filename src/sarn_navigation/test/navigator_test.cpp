@@ -236,6 +236,45 @@ TEST(Navigator, thePlanToTheLastGoalIsNotKeptForANewOneHoweverCheapItIs) {
   EXPECT_NEAR(drive.pose().x, 7.0, 0.2);
 }
 
+TEST(Navigator, stillMovesAsideForSomebodyItHasLostFromSight) {
+  DrawnScene scene(room(24, 16));
+  Drive drive(scene, {3.0, 2.0, 0.0});
+  drive.navigator().observe({drive.now(), 0.5, {{"anna", "", {{{5.5, 2.0}, {-1.0, 0.0}, 0.1}}}}});
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kYielding, 2.0));
+  for (int i = 0; i < 60; ++i) {
+    drive.step();
+    drive.navigator().observe({drive.now(), 0.5, {}});  // turned away from her
+    ASSERT_EQ(drive.navigator().status().state, NavigatorState::kYielding) << "after " << i << " steps";
+  }
+  EXPECT_TRUE(drive.runUntil(NavigatorState::kIdle, NavigatorParams().yield_timeout)) << "but not for ever";
+}
+
+TEST(Navigator, aGoalThatComesWhileItMovesAsideWaitsForThePerson) {
+  DrawnScene scene(room(24, 16));
+  Drive drive(scene, {3.0, 2.0, 0.0}, {}, planCost);
+  drive.navigator().observe({drive.now(), 0.5, {{"anna", "", {{{5.5, 2.0}, {-1.0, 0.0}, 0.1}}}}});
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kYielding, 5.0));
+  ASSERT_EQ(drive.setGoal({5.4, 2.0, 0.0}), "");
+  drive.step();
+  EXPECT_EQ(drive.navigator().status().state, NavigatorState::kYielding);
+  drive.navigator().observe({drive.now(), 0.5, {{"anna", "", {{{1.5, 2.0}, {-1.0, 0.0}, 0.1}}}}});
+  drive.step();
+  EXPECT_EQ(drive.navigator().status().state, NavigatorState::kPlanning) << "she has passed";
+}
+
+TEST(Navigator, expectsPeopleToWaitWhileItMovesAside) {
+  DrawnScene scene(room(24, 16));
+  Drive drive(scene, {3.0, 2.0, 0.0});
+  const sarn::PeoplePrediction people{
+      drive.now(), 1.0, {{"anna", "", {{{5.5, 2.0}, {-1.0, 0.0}, 0.1}, {{2.0, 2.0}, {-1.0, 0.0}, 0.1}}}}};
+  EXPECT_EQ(drive.navigator().expected(people).people[0].states[1].position.x(), 2.0);
+  EXPECT_FALSE(drive.navigator().takeExpectationChange());
+  drive.navigator().observe(people);
+  ASSERT_TRUE(drive.runUntil(NavigatorState::kYielding, 2.0));
+  EXPECT_TRUE(drive.navigator().takeExpectationChange());
+  EXPECT_EQ(drive.navigator().expected(people).people[0].states[1].position.x(), 5.5);
+}
+
 TEST(Navigator, goalThatIsSetWhileItMovesAsideIsReachedItself) {
   DrawnScene scene(room(24, 16));
   Drive drive(scene, {3.0, 2.0, 0.0}, {}, planCost);

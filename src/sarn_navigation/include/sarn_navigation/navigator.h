@@ -5,12 +5,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "lattice_planner/footprint_check.h"
 #include "sarn_common/people.h"
 #include "sarn_common/timed_costmap_view.h"
 #include "sarn_common/timed_trajectory.h"
 #include "sarn_navigation/navigator_params.h"
+#include "sarn_navigation/passing_watch.h"
 #include "sarn_navigation/plan_conflict.h"
 #include "sarn_navigation/planning_worker.h"
 #include "sarn_navigation/progress_monitor.h"
@@ -69,6 +71,10 @@ class Navigator {
   void reset();
   /// People as predicted, in the planning frame.
   void observe(const sarn::PeoplePrediction& people);
+  /// What to expect of people, as a costmap should have it: while the robot moves aside, they wait for it.
+  [[nodiscard]] sarn::PeoplePrediction expected(const sarn::PeoplePrediction& people) const;
+  /// True once when what is expected of the same people has changed: costs are to be made anew.
+  [[nodiscard]] bool takeExpectationChange() { return std::exchange(expectation_changed_, false); }
 
   /// One control cycle: the command to send.
   [[nodiscard]] sarn::Twist2D step(const NavigatorInput& input);
@@ -89,8 +95,12 @@ class Navigator {
  private:
   struct Yield {
     sarn::Pose2D spot;
-    Eigen::Vector2d origin;  // [m] where the robot stood in the way
-    double start = 0.0;      // [s]
+    BlockedPerson person;      // as when it began
+    Eigen::Vector2d origin;    // [m] where the robot stood in the way
+    double start = 0.0;        // [s]
+    double clear_since = 0.0;  // [s] since when nobody is on the way through there
+    PassingWatch watch;
+    std::shared_ptr<const sarn::TimedCostmapView> before;  // costs in which people walk through the robot
     bool reached = false;
   };
 
@@ -110,6 +120,7 @@ class Navigator {
   void recoverOrGiveUp(const NavigatorInput& input, const std::string& reason);
   void superviseYield(const NavigatorInput& input);
   void startYield(const NavigatorInput& input, const BlockedPerson& person);
+  [[nodiscard]] bool wayIsClear(double now) const;
   void endYield(double now);
   [[nodiscard]] bool mayTurn(const NavigatorInput& input);
   [[nodiscard]] bool standsStill(const NavigatorInput& input) const;
@@ -144,6 +155,8 @@ class Navigator {
   double yield_retry_time_ = 0.0;  // [s]
   double still_since_ = 0.0;       // [s]
   bool moving_ = false;
+  bool expectation_changed_ = false;
+  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();  // [m] of the robot at the last step
   int recoveries_ = 0;
   std::string plan_failure_;  // of the last search; empty: it gave a plan
 

@@ -18,6 +18,9 @@ struct BlockedPerson {
   Eigen::Vector2d velocity;  // [m/s] current, or the last one before the person had to stop for the robot
 };
 
+/// Distance [m] from p to the half-line on which the person walks.
+[[nodiscard]] double distanceToWay(const Eigen::Vector2d& p, const BlockedPerson& person);
+
 /// Tells whether a standing robot is in somebody's way. People who walk are judged by the straight line they
 /// walk on; people who came to a halt in front of the robot by the direction they came from, for a few
 /// seconds.

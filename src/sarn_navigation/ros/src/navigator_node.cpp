@@ -145,10 +145,10 @@ void NavigatorNode::onPrediction(const sarn_msgs::PeoplePrediction& message) {
                           "', expected '" + config_.node.global_frame + "'; these people are ignored");
     return;
   }
-  sarn::PeoplePrediction prediction = sarn::fromMessage(message);
-  navigator_.observe(prediction);
-  display_.remember(prediction);
-  costmap_.setPrediction(std::move(prediction));
+  prediction_ = sarn::fromMessage(message);
+  navigator_.observe(prediction_);
+  display_.remember(prediction_);
+  costmap_.setPrediction(navigator_.expected(prediction_));
 }
 
 bool NavigatorNode::onClearCostmaps(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
@@ -310,6 +310,10 @@ void NavigatorNode::updateScene(const sarn::Pose2D& robot, double now) {
 std::optional<NavigatorInput> NavigatorNode::makeInput(double now) {
   const auto pose = robotPose(now);
   if (!pose) return std::nullopt;
+  if (navigator_.takeExpectationChange() && !prediction_.people.empty()) {
+    costmap_.setPrediction(navigator_.expected(prediction_));
+    next_costmap_ = now;
+  }
   if (now >= next_costmap_) {
     next_costmap_ = now + 1.0 / config_.node.costmap_frequency;
     updateScene(*pose, now);

@@ -91,6 +91,7 @@ class NavigatorNode {
   bool was_active_ = false;
   int zeros_to_send_ = 0;               // after the goal: a few zero commands
   double last_now_ = 0.0;               // [s]
+  sarn::PeoplePrediction prediction_;   // the newest
   double next_costmap_ = 0.0;           // [s]
   double next_status_ = 0.0;            // [s]
   std::optional<double> renew_action_;  // [s] when the action server is to be made anew
