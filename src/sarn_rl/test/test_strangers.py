@@ -15,7 +15,9 @@ from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.envs.replayed import ReplayedWorlds, Walk
 from sarn_rl.envs.worlds import Outcome, Worlds
 from sarn_rl.evaluation import jupedsim_crowd, recorded
+from sarn_rl.evaluation.episodes import run_worlds
 from sarn_rl.evaluation.strangers import Strangers
+from sarn_rl.policies.base import Policy
 from sarn_rl.policies.crowd_models import OrcaPolicy
 from sarn_rl.reward import RewardParams
 
@@ -135,3 +137,30 @@ def test_missing_crowds_are_skipped_with_a_word(tmp_path: Path) -> None:
     assert len(names) == (3 if jupedsim_crowd.is_available() else 0)
     rows = [strangers.summary(name, OrcaPolicy(0.15), 0.974) for name in names]
     assert all(row["cases"] == 2 for row in rows)
+
+
+class _Stand(Policy):
+    kinematics = Kinematics.HOLONOMIC
+
+    def act(self, state, people_after=None):  # type: ignore[no-untyped-def]
+        return np.zeros((len(state), 2))
+
+
+class _Ahead(Policy):
+    kinematics = Kinematics.HOLONOMIC
+
+    def act(self, state, people_after=None):  # type: ignore[no-untyped-def]
+        return np.tile([1.0, 0.0], (len(state), 1))
+
+
+@pytest.mark.parametrize("policy, stood", [(_Stand(), True), (_Ahead(), False)])
+def test_who_is_run_into_while_standing_is_told(policy: Policy, stood: bool) -> None:
+    """Somebody comes along the robot's way; somebody else passes far away."""
+    steps = 0.25 * np.arange(60)[:, None]
+    towards = np.concatenate([6.0 - steps, 0.0 * steps], axis=1)[:, None]
+    walks = [Walk(np.zeros(2), np.array([9.0, 0.0]), ways) for ways in (towards, towards + [0.0, 8.0])]
+    worlds = ReplayedWorlds(walks, Kinematics.HOLONOMIC, 0.3, 0.3, 1.0, 0.25, 15.0, REWARD)
+    episodes = run_worlds(policy, worlds, 0.974)
+    assert (episodes.outcomes == Outcome.COLLISION).tolist() == [True, False]
+    assert episodes.run_into.tolist() == [stood, False]
+    assert episodes.summary()["run_into"] == 0.5 * stood

@@ -12,8 +12,12 @@ from sarn_rl.envs.cases import case_seed, make_case
 from sarn_rl.envs.params import EnvironmentParams
 from sarn_rl.envs.replayed import ReplayedWorlds
 from sarn_rl.envs.worlds import Outcome, Steps, Worlds
+from sarn_rl.joint_state import VX, VY, JointState
 from sarn_rl.policies.base import Policy
 from sarn_rl.reward import RewardParams, discounted
+
+# [m/s] below which a robot stands.
+STANDING = 0.05
 
 
 @dataclass(frozen=True)
@@ -27,6 +31,7 @@ class Episodes:
         discomfort_steps: (C,) of them, nearer to somebody than discomfort_dist.
         min_separations: (C,) [m] smallest of the episode.
         returns: (C,) discounted rewards.
+    run_into: (C,) bool: ended in a collision, while the robot stood still.
     """
 
     outcomes: np.ndarray
@@ -35,11 +40,13 @@ class Episodes:
     discomfort_steps: np.ndarray
     min_separations: np.ndarray
     returns: np.ndarray
+    run_into: np.ndarray
 
     def summary(self) -> Dict[str, Any]:
         """Rates, the mean time of successes [s] (None without any), and the discomfort frequency.
 
-        The discomfort frequency is the share of all steps that were uncomfortable.
+        The discomfort frequency is the share of all steps that were uncomfortable. Of the collisions, those are
+        told beside in which somebody ran into the standing robot.
         """
         success = self.outcomes == Outcome.SUCCESS
         return {
@@ -50,6 +57,7 @@ class Episodes:
             "time_s": float(self.times[success].mean()) if success.any() else None,
             "discomfort": float(self.discomfort_steps.sum() / max(1, self.steps.sum())),
             "mean_return": float(self.returns.mean()),
+            "run_into": float(self.run_into.mean()),
         }
 
 
@@ -99,7 +107,7 @@ def run_worlds(
         after = worlds.people_after()[live] if peek else None
         actions = np.zeros((len(worlds), 2))
         actions[live] = policy.act(worlds.state.select(live), after)
-        record.add(worlds.step(actions), worlds.times)
+        record.add(worlds.step(actions), worlds.times, worlds.state)
     return record.episodes()
 
 
@@ -119,9 +127,10 @@ class EpisodeRecord:
         self._discomfort = np.zeros(count, dtype=int)
         self._separations = np.full(count, np.inf)
         self._returns = np.zeros(count)
+        self._run_into = np.zeros(count, dtype=bool)
 
-    def add(self, steps: Steps, times: np.ndarray) -> None:
-        """A step of all, and the times [s] (C,) after it; who has ended stays as it is."""
+    def add(self, steps: Steps, times: np.ndarray, state: JointState) -> None:
+        """A step of all, the times [s] (C,) and the state after it; who has ended stays as it is."""
         live = self.running.copy()
         self._returns[live] += self._discount ** self._steps[live] * steps.rewards[live]
         self._steps[live] += 1
@@ -129,9 +138,17 @@ class EpisodeRecord:
         self._separations[live] = np.minimum(self._separations, steps.min_separation)[live]
         self._times[live] = times[live]
         self._outcomes[live] = steps.outcomes[live]
+        stands = np.hypot(state.robots[:, VX], state.robots[:, VY]) < STANDING
+        self._run_into |= live & stands & (steps.outcomes == Outcome.COLLISION)
         self.running &= steps.outcomes == Outcome.RUNNING
 
     def episodes(self) -> Episodes:
         return Episodes(
-            self._outcomes, self._times, self._steps, self._discomfort, self._separations, self._returns
+            self._outcomes,
+            self._times,
+            self._steps,
+            self._discomfort,
+            self._separations,
+            self._returns,
+            self._run_into,
         )

@@ -70,7 +70,7 @@ def _crossings(policy: Policy, worlds: Worlds) -> Tuple[np.ndarray, Episodes]:
         live = np.flatnonzero(before)
         actions = np.zeros((count, 2))
         actions[live] = policy.act(worlds.state.select(live))
-        record.add(worlds.step(actions), worlds.times)
+        record.add(worlds.step(actions), worlds.times, worlds.state)
         robots, people = worlds.state.robots, worlds.state.people[:, 0]
         level = before & np.isnan(aside) & (robots[:, PY] >= people[:, PY])
         aside[level] = (robots[:, PX] - people[:, PX])[level]

@@ -15,6 +15,7 @@ FIGURES = (
     "time_s",
     "discomfort",
     "mean_return",
+    "run_into",
     "right_hand",
     "left_hand",
     "never_passed",
@@ -29,6 +30,7 @@ HEAD = (
     "timeout",
     "time [s]",
     "discomfort",
+    "run into",
     "right side",
     "paper (s/c/t)",
 )
@@ -106,6 +108,7 @@ def _origin(rows: Sequence[Row]) -> str:
     return (
         f"Made by tools/table: {measured}. Test cases, the robot invisible unless said, people predicted at "
         "constant velocity. Time: of those that arrived. Discomfort: share of the steps nearer than 0.2 m. "
+        "Run into: share of cases in which somebody walked into the standing robot (of the collisions). "
         "Right side: share of cases in which one person is passed or overtaken on the right-hand norm's side."
     )
 
@@ -121,6 +124,7 @@ def _cells(row: Row) -> Tuple[str, ...]:
         *(f"{row[key]:.3f}" for key in ("success", "collision", "timeout")),
         "" if row["time_s"] is None else f"{row['time_s']:.2f}",
         f"{row['discomfort']:.4f}",
+        f"{row['run_into']:.3f}",
         f"{row['right_hand']:.2f}" if "right_hand" in row else "",
         "{:.2f} / {:.3f} / {:.2f}".format(*theirs) if theirs else "",
     )
