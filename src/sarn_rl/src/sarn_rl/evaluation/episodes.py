@@ -45,8 +45,8 @@ class Episodes:
     def summary(self) -> Dict[str, Any]:
         """Rates, the mean time of successes [s] (None without any), and the discomfort frequency.
 
-        The discomfort frequency is the share of all steps that were uncomfortable. Of the collisions, those are
-        told beside in which somebody ran into the standing robot.
+        The discomfort frequency is the share of all steps that were uncomfortable. run_into are those of the
+        collisions in which somebody walked into the standing robot.
         """
         success = self.outcomes == Outcome.SUCCESS
         return {
