@@ -168,8 +168,11 @@ def test_networks_are_compared_by_more_cases_near_the_end(tmp_path: Path) -> Non
     trained(tiny(learning=learning), tmp_path)
     run = load_checkpoint(tmp_path / BEST_FILE).origin["run"]
     assert run["episodes"] >= 24 and run["cpu_seconds"]["collection"] > 0.0
-    judged_by = [entry["judged_by"] for entry in events(tmp_path, "validation")]
+    told = events(tmp_path, "validation")
+    judged_by = [entry["judged_by"] for entry in told]
     assert judged_by[0] == 20 and judged_by[-1] == 50
+    measured = [(entry["updates"], entry["judged_by"]) for entry in told]
+    assert len(set(measured)) == len(measured)
     assert load_checkpoint(tmp_path / BEST_FILE).origin["validation"]["judged_by"] == 50
 
 

@@ -88,6 +88,7 @@ class Trainer:
         self._episodes = 0
         self._next_case = params.teacher.cases or params.imitation.episodes
         self._best: Tuple[float, ...] = (-np.inf,)
+        self._validated: Tuple[Tuple[int, bool], Dict[str, Any]] = ((-1, False), {})
         self._seconds: Dict[str, float] = {}
         self._cpu_seconds: Dict[str, float] = {}
         self._recent: Deque[Finished] = deque(maxlen=200)
@@ -230,7 +231,12 @@ class Trainer:
             self._events.add_scalar(f"training/{name}", value, self._episodes)
 
     def _validate(self) -> Dict[str, Any]:
+        """What comes of the weights as they are, measured once: at the end of a training that has just been."""
+        which = (self._learner.updates, self._is_selecting())
+        if self._validated[0] == which:
+            return self._validated[1]
         result = self._timed("validation", self._run_validation)
+        self._validated = (which, result)
         self._log("validation", episodes=self._episodes, updates=self._learner.updates, **result)
         for name, value in result.items():
             if value is None:
@@ -251,13 +257,17 @@ class Trainer:
     def _run_validation(self) -> Dict[str, Any]:
         result = self._run_cases("validation", range(SPLIT_SIZES["validation"]))
         judged_by, total = result["cases"], result["cases"] * result["mean_return"]
-        learning = self._params.learning
-        if learning.selection_cases and self._episodes >= learning.selection_episode:
-            numbers = range(FIRST_SELECTION_CASE, FIRST_SELECTION_CASE + learning.selection_cases)
+        if self._is_selecting():
+            count = self._params.learning.selection_cases
+            numbers = range(FIRST_SELECTION_CASE, FIRST_SELECTION_CASE + count)
             more = self._run_cases("training", numbers)
             judged_by, total = judged_by + more["cases"], total + more["cases"] * more["mean_return"]
             result["selection_success"] = more["success"]
         return {**result, "judged_by": judged_by, "judged_return": total / judged_by}
+
+    def _is_selecting(self) -> bool:
+        learning = self._params.learning
+        return learning.selection_cases > 0 and self._episodes >= learning.selection_episode
 
     def _run_cases(self, split: str, numbers: range) -> Dict[str, Any]:
         """What comes of the network that is kept."""
