@@ -3,6 +3,7 @@
 
 #include <costmap_2d/costmap_2d_ros.h>
 #include <costmap_2d/layered_costmap.h>
+#include <dynamic_reconfigure/Config.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <mbf_costmap_core/costmap_controller.h>
@@ -22,6 +23,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sarn_common/angles.h"
@@ -37,12 +39,18 @@ using Poses = std::vector<geometry_msgs::PoseStamped>;
 
 constexpr double kNow = 1000.0;  // [s] when each test begins
 
-/// Walls, drawn by the test.
+/// Walls, drawn by the test. As a map does, they ask for an update only when there is something new,
+/// or when they move through a rolling window.
 class Walls : public costmap_2d::Layer {
  public:
-  void add(double x0, double y0, double x1, double y1) { boxes_.push_back({x0, y0, x1, y1}); }
+  void add(double x0, double y0, double x1, double y1) {
+    boxes_.push_back({x0, y0, x1, y1});
+    new_ = true;
+  }
+  void matchSize() override { new_ = true; }
   void updateBounds(double, double, double, double* min_x, double* min_y, double* max_x,
                     double* max_y) override {
+    if (!std::exchange(new_, layered_costmap_->isRolling())) return;
     *min_x = *min_y = -1e3;
     *max_x = *max_y = 1e3;
   }
@@ -61,10 +69,11 @@ class Walls : public costmap_2d::Layer {
   }
 
  protected:
-  void onInitialize() override { current_ = true; }
+  void onInitialize() override { current_ = enabled_ = true; }
 
  private:
   std::vector<std::array<double, 4>> boxes_;
+  bool new_ = true;
 };
 
 inline geometry_msgs::TransformStamped transform(const std::string& from, const std::string& to,
@@ -181,16 +190,29 @@ class Plugins : public testing::Test {
 inline const sarn::Person kStanding{"anna", "", {5.0, 3.0}, {0.0, 0.0}, 1.0};
 
 /// What rqt_reconfigure does.
-inline void tune(const std::string& server, const std::string& name, double value) {
+inline void tune(const std::string& server, const dynamic_reconfigure::Config& config) {
   dynamic_reconfigure::Reconfigure call;
-  dynamic_reconfigure::DoubleParameter parameter;
-  parameter.name = name;
-  parameter.value = value;
-  call.request.config.doubles.push_back(parameter);
+  call.request.config = config;
   ros::AsyncSpinner spinner(1);
   spinner.start();
   ASSERT_TRUE(sarn::callService(server + "/set_parameters", call)) << server;
   spinner.stop();
+}
+
+inline void tune(const std::string& server, const std::string& name, double value) {
+  dynamic_reconfigure::Config config;
+  config.doubles.emplace_back();
+  config.doubles.back().name = name;
+  config.doubles.back().value = value;
+  tune(server, config);
+}
+
+inline void switchTo(const std::string& server, const std::string& name, bool value) {
+  dynamic_reconfigure::Config config;
+  config.bools.emplace_back();
+  config.bools.back().name = name;
+  config.bools.back().value = value ? 1 : 0;
+  tune(server, config);
 }
 
 /// The costmap's own footprint, as move_base has it: 1 m x 0.4 m.

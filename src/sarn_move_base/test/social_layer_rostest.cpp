@@ -139,6 +139,23 @@ TEST_F(Plugins, layerIsTunedLive) {
   EXPECT_EQ(costAt(5.1, 3.0), 254);
 }
 
+TEST_F(Plugins, layerThatIsSwitchedOffLiveLeavesNobodyBehind) {
+  const auto layer = addSocialLayer();
+  tell({kStanding});
+  costmap_->updateMap();
+  ASSERT_EQ(costAt(5.0, 3.0), 254);
+  switchTo("~/global_costmap/social_layer", "enabled", false);
+  setTime(kNow + 5.0);  // and is not waited for
+  costmap_->updateMap();
+  EXPECT_EQ(costAt(5.0, 3.0), 0);
+  EXPECT_TRUE(costmap_->isCurrent());
+  switchTo("~/global_costmap/social_layer", "enabled", true);
+  setTime(kNow);
+  tell({kStanding});
+  costmap_->updateMap();
+  EXPECT_EQ(costAt(5.0, 3.0), 254);
+}
+
 TEST_F(Plugins, misspeltLayerKeepsTheCostmapFromBeingCurrent) {
   ros::NodeHandle("~").setParam("global_costmap/bad_layer/forbiden_radius", 0.5);
   const auto layer = addSocialLayer("bad_layer");

@@ -20,7 +20,10 @@ namespace sarn_move_base {
 
 void SocialLayer::onInitialize() {
   const ros::NodeHandle nh("~/" + name_);
-  enabled_ = current_ = false;  // until everything is known: a costmap that is not current moves nobody
+  // A layer that is not enabled is not even asked whether it is current, nor may it clear what it painted:
+  // the switch is in people_. Until everything is known this costmap is not current, and moves nobody.
+  enabled_ = true;
+  current_ = false;
   SocialLayerConfig config;
   try {
     config = sarn::readParameters<SocialLayerConfig>(nh);
@@ -32,8 +35,7 @@ void SocialLayer::onInitialize() {
   social_costmap::SocialParams social = config;
   social.num_layers = 1;  // the present
   people_.setParams(social);
-  enabled_ = social.enabled;
-  current_ = params_.expected_update_rate <= 0.0;
+  current_ = !social.enabled || params_.expected_update_rate <= 0.0;
   matchSize();
   reconfigure_ =
       std::make_unique<dynamic_reconfigure::Server<social_costmap::SocialConfig>>(reconfigure_mutex_, nh);
@@ -47,7 +49,6 @@ void SocialLayer::onInitialize() {
 void SocialLayer::apply(const social_costmap::SocialConfig& config) {
   const std::lock_guard<std::mutex> lock(mutex_);
   people_.setParams(social_costmap_ros::fromConfig(config, people_.params()));
-  enabled_ = people_.params().enabled;
 }
 
 void SocialLayer::activate() {
@@ -90,7 +91,8 @@ void SocialLayer::updateBounds(double, double, double, double* min_x, double* mi
   if (grid != people_.geometry()) people_.resize(grid);  // a rolling costmap has moved on
   const sarn::PeoplePrediction people =
       source_->inFrame(layered_costmap_->getGlobalFrameID(), now, people_.params().people_timeout);
-  current_ = params_.expected_update_rate <= 0.0 || now - people.stamp <= params_.expected_update_rate;
+  const bool waits = people_.params().enabled && params_.expected_update_rate > 0.0;
+  current_ = !waits || now - people.stamp <= params_.expected_update_rate;
   (void)people_.update(people, now);
   const Area before = last_;
   last_ = painted();

@@ -33,6 +33,7 @@ class Layer {
   virtual void matchSize() {}
   virtual void onFootprintChanged() {}
   bool isCurrent() const { return current_; }
+  bool isEnabled() const noexcept { return enabled_; }
   std::string getName() const { return name_; }
 
  protected:

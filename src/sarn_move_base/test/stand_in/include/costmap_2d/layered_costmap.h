@@ -15,6 +15,7 @@
 namespace costmap_2d {
 
 /// Layers in order over one grid: each update asks them for bounds, clears what lies inside, lets them write.
+/// A layer that is not enabled is not asked for anything, not even whether it is current.
 class LayeredCostmap {
  public:
   LayeredCostmap(std::string global_frame, bool rolling_window, bool track_unknown)
@@ -32,8 +33,10 @@ class LayeredCostmap {
     double min_y = min_x;
     double max_x = std::numeric_limits<double>::lowest();
     double max_y = max_x;
-    for (auto& plugin : plugins_)
-      plugin->updateBounds(robot_x, robot_y, robot_yaw, &min_x, &min_y, &max_x, &max_y);
+    for (auto& plugin : plugins_) {
+      if (plugin->isEnabled())
+        plugin->updateBounds(robot_x, robot_y, robot_yaw, &min_x, &min_y, &max_x, &max_y);
+    }
     int x0 = 0;
     int y0 = 0;
     int xn = 0;
@@ -45,7 +48,9 @@ class LayeredCostmap {
     if (max_x < min_x || max_y < min_y) return;
     costmap_.resetMap(static_cast<unsigned int>(x0), static_cast<unsigned int>(y0),
                       static_cast<unsigned int>(xn), static_cast<unsigned int>(yn));
-    for (auto& plugin : plugins_) plugin->updateCosts(costmap_, x0, y0, xn, yn);
+    for (auto& plugin : plugins_) {
+      if (plugin->isEnabled()) plugin->updateCosts(costmap_, x0, y0, xn, yn);
+    }
   }
   void resizeMap(unsigned int size_x, unsigned int size_y, double resolution, double origin_x,
                  double origin_y, bool /*size_locked*/ = false) {
@@ -56,7 +61,8 @@ class LayeredCostmap {
   const std::string& getGlobalFrameID() const noexcept { return global_frame_; }
   bool isRolling() { return rolling_; }
   bool isCurrent() {
-    return std::all_of(plugins_.begin(), plugins_.end(), [](const auto& p) { return p->isCurrent(); });
+    return std::all_of(plugins_.begin(), plugins_.end(),
+                       [](const auto& p) { return !p->isEnabled() || p->isCurrent(); });
   }
   Costmap2D* getCostmap() { return &costmap_; }
   std::vector<boost::shared_ptr<Layer>>* getPlugins() { return &plugins_; }
