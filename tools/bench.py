@@ -33,6 +33,7 @@ GOALS: Dict[str, Tuple[str, float]] = {
     "planner.ancestor.search_ms.median.people": ("<", 5.0),
     "planner.ancestor.search_ms.p99.alone": ("<", 50.0),
     "planner.ancestor.search_ms.p99.people": ("<", 100.0),
+    "planner.ancestor.layer_update_ms": ("<", 2.0),
     "planner.ancestor.reached.alone": (">", 100.0),
     "planner.ancestor.reached.people": (">", 100.0),
     "planner.ancestor.cost_over_optimum_pct.median": ("<", 0.5),

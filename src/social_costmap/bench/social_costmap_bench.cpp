@@ -66,9 +66,9 @@ void predict(const Crowd& crowd, double now, int steps, sarn::PeoplePrediction& 
   }
 }
 
-double socialUpdateMs(int people, int group_size, int cells) {
+double socialUpdateMs(int people, int group_size, int cells, int num_layers = 30) {
   social_costmap::SocialParams params;
-  params.num_layers = 30;
+  params.num_layers = num_layers;
   social_costmap::SocialLayers layers(params);
   layers.resize({cells, cells, 0.05, 0.0, 0.0});
   const Crowd crowd = makeCrowd(people, cells * 0.05, group_size, 1);
@@ -82,7 +82,8 @@ double socialUpdateMs(int people, int group_size, int cells) {
 int main() {
   std::printf(
       "{\"social_layers.update_ms\": %.3f, \"social_layers.update_ms.groups_of_4\": %.3f, "
-      "\"social_layers.update_ms.200_people\": %.3f}\n",
-      socialUpdateMs(20, 0, 200), socialUpdateMs(20, 4, 200), socialUpdateMs(200, 0, 200));
+      "\"social_layers.update_ms.200_people\": %.3f, \"planner.ancestor.layer_update_ms\": %.3f}\n",
+      socialUpdateMs(20, 0, 200), socialUpdateMs(20, 4, 200), socialUpdateMs(200, 0, 200),
+      socialUpdateMs(2, 0, 400, 15));  // as the ancestor: two people, 15 layers
   return 0;
 }
