@@ -231,7 +231,7 @@ class Trainer:
             self._events.add_scalar(f"training/{name}", value, self._episodes)
 
     def _validate(self) -> Dict[str, Any]:
-        """What comes of the weights as they are, measured once: at the end of a training that has just been."""
+        """What comes of the weights as they are; not measured again if they have not changed."""
         which = (self._learner.updates, self._is_selecting())
         if self._validated[0] == which:
             return self._validated[1]
