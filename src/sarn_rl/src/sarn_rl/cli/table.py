@@ -8,7 +8,7 @@ import fnmatch
 import json
 import sys
 from pathlib import Path
-from typing import Any, Dict, List
+from typing import Any, Dict, List, Tuple
 
 from sarn_rl.cli.evaluate import BENCHMARK_REWARD
 from sarn_rl.cli.outputs import write_whole
@@ -72,8 +72,13 @@ def _wanted(options: argparse.Namespace, chosen: List[Path], strangers: Stranger
         wanted += [] if options.no_strangers else orca_among_strangers(strangers, options.count)
     for path in chosen:
         wanted += model_rows(path, options.count, None if options.no_strangers else strangers)
-    # The quick ones first: an interrupted table has most of its rows.
-    return sorted(wanted, key=lambda one: int(one.about["humans"]))
+    return sorted(wanted, key=_turn)
+
+
+def _turn(one: WantedRow) -> Tuple[bool, int, bool]:
+    """The quick rows first, and further seeds among strangers last: an interrupted table says what it can."""
+    strange = one.about["people_model"] != "orca"
+    return strange and one.about["seed"] > 1, one.about["humans"], strange
 
 
 def _rows_before(options: argparse.Namespace) -> List[Row]:
