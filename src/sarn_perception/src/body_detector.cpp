@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 constexpr double kTorsoWidth = 0.35;   // [m] what a torso in full view is counted as
 constexpr double kTorsoHeight = 0.30;  // [m]
+constexpr double kCutSigma = 0.7;      // of what the image's edge cuts off: nobody is as wide as all
 constexpr double kVisibleTop = 0.85;   // of the height that the view reaches: a person fills it
 
 /// The lateral places [m] of a cluster's points between which the middle 96 % lie.
@@ -163,10 +164,12 @@ std::vector<std::vector<std::size_t>> BodyDetector::clusters() {
   return clusters;
 }
 
-double BodyDetector::cutOff(const Eigen::Vector2d& middle, const PinholeCamera& camera) {
-  const double bearing = std::atan2(middle.y(), middle.x());
-  const double room = std::min(camera.bearing_left - bearing, bearing - camera.bearing_right) * middle.norm();
-  return std::clamp(0.5 * kTorsoWidth - room, 0.0, 0.5 * kTorsoWidth);
+double BodyDetector::cutOff(const Eigen::Vector2d& seen, const PinholeCamera& camera) {
+  const double bearing = std::atan2(seen.y(), seen.x());
+  const double left = (camera.bearing_left - bearing) * seen.norm();
+  const double right = (bearing - camera.bearing_right) * seen.norm();
+  const double missing = std::clamp(0.5 * kTorsoWidth - std::min(left, right), 0.0, 0.5 * kTorsoWidth);
+  return left < right ? missing : -missing;
 }
 
 void BodyDetector::addBodies(const std::vector<std::size_t>& cluster, const View& view,
@@ -209,7 +212,9 @@ void BodyDetector::addBodies(const std::vector<std::size_t>& cluster, const View
     const Eigen::Vector2d front = (own.sum / static_cast<float>(own.count)).cast<double>();
     Body body;
     body.position = front * (1.0 + params_.depth_offset / front.norm());
-    body.sigma = std::hypot(0.5 * noise(range), cutOff(body.position, view.camera));
+    const double outside = cutOff(body.position, view.camera);
+    body.position += outside * across;
+    body.sigma = std::hypot(0.5 * noise(range), kCutSigma * std::abs(outside));
     body.confidence = parts == 1 ? 1.0 : 0.5;
     if (background.unknown(map_from_camera * body.position)) body.confidence *= params_.unknown_confidence;
     bodies.push_back(body);

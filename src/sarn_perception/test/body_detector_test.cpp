@@ -92,6 +92,23 @@ TEST_F(BodyDetectorTest, findsATorsoWhereItIs) {
   EXPECT_DOUBLE_EQ(found[0].confidence, 1.0);
 }
 
+TEST_F(BodyDetectorTest, putsATorsoThatTheEdgeCutsWhereItsMiddleIs) {
+  const double edge = std::atan(159.5 / kFocal);  // [rad]
+  const Eigen::Vector2d eye(1.0 - 0.1, 3.0 + 0.05);
+  for (const double side : {-1.0, 1.0}) {
+    for (const double inside : {0.06, 0.03, 0.0, -0.02}) {  // [rad] of the middle
+      const double bearing = side * (edge - inside);
+      const Eigen::Vector2d place = eye + 2.5 * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+      const auto found = bodies({1.0, 3.0, 0.0}, {torsoAt(place.x(), place.y())});
+      ASSERT_EQ(found.size(), 1U) << side << ", " << inside;
+      const Eigen::Vector2d seen = sarn::Pose2D{1.0, 3.0, 0.0} * found[0].position - eye;
+      const double sideways = 2.5 * side * sarn::angleDifference(bearing, std::atan2(seen.y(), seen.x()));
+      EXPECT_NEAR(sideways, 0.0, 0.05) << side << ", " << inside;
+      EXPECT_LT(std::abs(sideways), 2.0 * found[0].sigma) << side << ", " << inside;
+    }
+  }
+}
+
 TEST_F(BodyDetectorTest, findsNobodyInAnEmptyRoom) {
   for (int i = 0; i < 12; ++i) EXPECT_TRUE(bodies({2.0, 3.0, 0.5 * i}, {}).empty()) << i;
 }

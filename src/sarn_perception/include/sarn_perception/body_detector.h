@@ -58,8 +58,9 @@ class BodyDetector {
   [[nodiscard]] std::size_t cellOf(const Eigen::Vector3f& point) const;
   void removeBackground(const Background& background, const sarn::Pose2D& map_from_camera);
   [[nodiscard]] std::vector<std::vector<std::size_t>> clusters();
-  /// How far [m] the middle of a torso at the image's edge may lie outside of what is seen of it.
-  [[nodiscard]] static double cutOff(const Eigen::Vector2d& middle, const PinholeCamera& camera);
+  /// How far [m], left positive, the middle of a torso lies from the middle `seen` of what the image's edge
+  /// leaves of it.
+  [[nodiscard]] static double cutOff(const Eigen::Vector2d& seen, const PinholeCamera& camera);
   void addBodies(const std::vector<std::size_t>& cluster, const View& view, const Background& background,
                  const sarn::Pose2D& map_from_camera, std::vector<Body>& bodies) const;
   [[nodiscard]] double noise(double range) const {
