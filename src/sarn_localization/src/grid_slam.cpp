@@ -15,7 +15,9 @@
 #include <string>
 
 #include "sarn_common/parameters.h"
+#include "sarn_localization/right_angles.h"
 #include "sarn_localization/scan_match.h"
+#include "sarn_localization/wall_lines.h"
 
 namespace sarn_localization {
 namespace {
@@ -152,7 +154,8 @@ struct GridSlam::Impl {
       : params(checked(p)),
         options(filterOptions(params)),
         filter(options, gridsOf(params), {}),
-        robot_in_map{params.initial_pose_x, params.initial_pose_y, params.initial_pose_a} {
+        robot_in_map{params.initial_pose_x, params.initial_pose_y, params.initial_pose_a},
+        compass(robot_in_map.theta) {
     mrpt::random::getRandomGenerator() =
         mrpt::random::CRandomGenerator(static_cast<std::uint32_t>(params.random_seed));
     filter.clear(mrpt::poses::CPose2D(robot_in_map.x, robot_in_map.y, robot_in_map.theta));
@@ -166,8 +169,10 @@ struct GridSlam::Impl {
     if (odom_at_update && !moved) return false;
     auto observation = mrpt::obs::CObservation2DRangeScan::Create();
     if (fill(scan, base_from_sensor, params, *observation) < kFewest) return false;
+    const std::vector<Eigen::Vector2d> ends = endsOf(*observation);
+    lookAtWalls(motion, ends, base_from_sensor);
     if (odom_at_update) {
-      moveParticles(motion, endsOf(*observation));
+      moveParticles(motion, ends);
       filter.normalizeWeights();
       if (filter.ESS() < params.resample_threshold) filter.performResampling(options);
     }
@@ -195,15 +200,40 @@ struct GridSlam::Impl {
     return {last.x, last.y, last.yaw};
   }
 
+  void lookAtWalls(const sarn::Pose2D& motion, const std::vector<Eigen::Vector2d>& ends,
+                   const sarn::Pose2D& base_from_sensor) {
+    if (!params.right_angles) return;
+    if (odom_at_update) compass.turn(motion.theta, motionSigma(motion, params).z());
+    WallLineParams lines;
+    lines.sigma = params.wall_sigma;
+    lines.sigma_range = params.wall_sigma_range;
+    compass.see(wallLines(ends, base_from_sensor.position(), lines));
+  }
+
+  /// A particle's heading by odometry, and how the walls correct it.
+  [[nodiscard]] HeadingBelief withCompass(const HeadingBelief& predicted) const {
+    const std::optional<HeadingBelief> seen =
+        params.right_angles ? compass.heading() : std::optional<HeadingBelief>();
+    if (!seen) return predicted;
+    const double own = predicted.sigma * predicted.sigma;
+    const double share = own / (own + seen->sigma * seen->sigma);
+    return {predicted.theta + share * sarn::angleDifference(predicted.theta, seen->theta),
+            predicted.sigma * std::sqrt(1.0 - share)};
+  }
+
   /// Draws each particle's next pose from where odometry, scan and its own map agree, and weighs it by how
   /// well they do.
   void moveParticles(const sarn::Pose2D& motion, const std::vector<Eigen::Vector2d>& ends) {
-    const Eigen::Vector3d sigma = motionSigma(motion, params);
+    Eigen::Vector3d sigma = motionSigma(motion, params);
+    const double turn_sigma = sigma.z();
     const ScanMatchParams matching{params.match_reach, 0.5 * params.match_reach, params.sigma, 2.0,
                                    params.match_exponent};
     for (std::size_t i = 0; i < filter.m_particles.size(); ++i) {
-      const ScanMatch match =
-          matchScan(GridView(*grid(i, kMatched)), ends, pose(i) * motion, sigma, matching);
+      sarn::Pose2D predicted = pose(i) * motion;
+      const HeadingBelief heading = withCompass({predicted.theta, turn_sigma});
+      predicted.theta = heading.theta;
+      sigma.z() = heading.sigma;
+      const ScanMatch match = matchScan(GridView(*grid(i, kMatched)), ends, predicted, sigma, matching);
       const Eigen::Matrix3d root = match.covariance.llt().matrixL();
       auto& random = mrpt::random::getRandomGenerator();
       Eigen::Vector3d draw;
@@ -222,6 +252,7 @@ struct GridSlam::Impl {
   mrpt::maps::CMultiMetricMapPDF filter;
   std::optional<sarn::Pose2D> odom_at_update;  // robot in odom
   sarn::Pose2D robot_in_map;                   // at the same time
+  RightAngles compass;
 };
 
 GridSlam::GridSlam(const SlamParams& params) : impl_(std::make_unique<Impl>(params)) {}

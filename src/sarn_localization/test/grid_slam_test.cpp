@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "drawn_map.h"
+#include "sarn_common/angles.h"
 
 namespace sarn_localization {
 namespace {
@@ -69,6 +71,34 @@ TEST(GridSlam, drawsTheRoomItDrivesThrough) {
   EXPECT_LT(errors[errors.size() * 95 / 100], 0.10);
   const sarn::Pose2D found = start * *slam.mapFromOdom() * odometry;
   EXPECT_LT((found.position() - truth.position()).norm(), 0.10);
+}
+
+/// Error of the heading [rad] after a first turn about, with a gyro that is 2 % off, 1 rad of view, and scan
+/// matching that leaves the heading to odometry and walls.
+double headingErrorAfterATurn(bool right_angles) {
+  const WallDistance walls(unevenRoom());
+  sarn::Pose2D truth{4.0, 2.5, 0.0};
+  sarn::Pose2D odometry;
+  SlamParams turning = params();
+  turning.right_angles = right_angles;
+  turning.match_exponent = 0.001;
+  turning.stt = 0.02;
+  turning.initial_pose_x = truth.x;
+  turning.initial_pose_y = truth.y;
+  GridSlam slam(turning);
+  for (int i = 0; i < 20; ++i) {
+    slam.addScan(odometry, {}, idealScan(walls, truth, 1.0, 160));
+    truth.theta += 0.16;
+    odometry.theta += 1.02 * 0.16;
+  }
+  const sarn::Pose2D found = *slam.mapFromOdom() * odometry;
+  return std::abs(sarn::angleDifference(truth.theta, found.theta));
+}
+
+TEST(GridSlam, wallsHoldTheHeadingInTheFirstTurn) {
+  const double held = headingErrorAfterATurn(true);
+  EXPECT_LT(held, 0.02);  // three standard errors of such a gyro between two walls
+  EXPECT_GT(headingErrorAfterATurn(false), 0.04);
 }
 
 TEST(GridSlam, leavesOutScansOfNothing) {

@@ -12,11 +12,10 @@
 namespace sarn_localization {
 
 /// Draws a map while driving through it: a Rao-Blackwellised particle filter over paths, each particle with
-/// an occupancy grid of its own (Grisetti, Stachniss and Burgard 2007), by MRPT's CMetricMapBuilderRBPF.
+/// an occupancy grid of its own (Grisetti, Stachniss and Burgard 2007), on MRPT's CMultiMetricMapPDF.
 ///
-/// It differs from gmapping in the proposal: particles move by the odometry alone and are weighed by the
-/// likelihood field of their grid. With a camera of 58 degrees a scan is often one wall, along which an
-/// optimised scan match slides; the gyro does not.
+/// It differs from gmapping in the proposal: scans are fitted to each particle's own grid with the odometry
+/// as prior (scan_match.h), and walls that meet at right angles hold the heading (right_angles.h).
 ///
 /// The map's frame is the robot's pose at the first scan.
 class GridSlam {

@@ -38,13 +38,16 @@ struct SlamParams : SharedParams {
   double match_reach = 0.16;    // [m] walls up to about twice as far off still pull a scan
   double match_exponent = 1.0;  // [1] neighbouring beams err together: (product of beams)^exponent, of poses
   double likelihood_exponent =
-      0.03;                 // [1] neighbouring beams err together: (product of beams)^exponent, of weights
-  double xmin = -5.0;       // [m] of the map at first; it grows
-  double ymin = -5.0;       // [m]
-  double xmax = 5.0;        // [m]
-  double ymax = 5.0;        // [m]
-  double delta = 0.05;      // [m] edge of a map cell
-  double occ_thresh = 0.5;  // [1] probability from which a cell is published as occupied
+      0.03;                   // [1] neighbouring beams err together: (product of beams)^exponent, of weights
+  bool right_angles = true;   // most walls meet at right angles: they tell the heading
+  double wall_sigma = 0.006;  // [m] of a return about a straight wall, at any range
+  double wall_sigma_range = 0.0015;  // [1/m] and along its beam by this times r^2, at a range r
+  double xmin = -5.0;                // [m] of the map at first; it grows
+  double ymin = -5.0;                // [m]
+  double xmax = 5.0;                 // [m]
+  double ymax = 5.0;                 // [m]
+  double delta = 0.05;               // [m] edge of a map cell
+  double occ_thresh = 0.5;           // [1] probability from which a cell is published as occupied
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {
@@ -69,6 +72,9 @@ struct SlamParams : SharedParams {
     v("match_reach", p.match_reach, {0.02, 1.0});
     v("match_exponent", p.match_exponent, {0.001, 1.0});
     v("likelihood_exponent", p.likelihood_exponent, {0.001, 1.0});
+    v("right_angles", p.right_angles);
+    v("wall_sigma", p.wall_sigma, {0.0001, 1.0});
+    v("wall_sigma_range", p.wall_sigma_range, {0.0, 0.1});
     v("xmin", p.xmin, {-1e4, 1e4});
     v("ymin", p.ymin, {-1e4, 1e4});
     v("xmax", p.xmax, {-1e4, 1e4});
