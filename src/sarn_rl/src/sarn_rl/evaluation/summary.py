@@ -124,7 +124,7 @@ def _cells(row: Row) -> Tuple[str, ...]:
         *(f"{row[key]:.3f}" for key in ("success", "collision", "timeout")),
         "" if row["time_s"] is None else f"{row['time_s']:.2f}",
         f"{row['discomfort']:.4f}",
-        f"{row['run_into']:.3f}",
+        f"{row['run_into']:.3f}" if "run_into" in row else "",
         f"{row['right_hand']:.2f}" if "right_hand" in row else "",
         "{:.2f} / {:.3f} / {:.2f}".format(*theirs) if theirs else "",
     )
