@@ -78,8 +78,10 @@ def norm_reward(
 
 
 def closest_distance(begin: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """Smallest distance [m] to the origin of segments from begin (..., 2) to end (..., 2);
-    leading axes are broadcast."""
+    """Smallest distance [m] to the origin of segments from begin (..., 2) to end (..., 2).
+
+    Leading axes are broadcast.
+    """
     begin_x, begin_y = begin[..., 0], begin[..., 1]
     motion_x, motion_y = end[..., 0] - begin_x, end[..., 1] - begin_y
     squared = motion_x * motion_x + motion_y * motion_y
