@@ -20,8 +20,16 @@ constexpr double kSeen = 0.2;         // [s] since the last detection, a person 
 constexpr double kOntoShare = 0.3;    // of a look that saw something else where a person should be
 constexpr double kNobody = 1e3;       // price in an assignment
 
+constexpr double kAnywhere = 0.5;  // [m] where somebody is before their legs are taken in
+
 /// Likelihood ratio of a detection that is only `confidence` sure to be one.
 double weighted(double ratio, double confidence) { return 1.0 + (ratio - 1.0) * confidence; }
+
+/// Likelihood ratio of one or two legs.
+double ratioOf(const std::vector<Leg>& legs, const TrackerParams& params) {
+  return weighted(legs.size() == 2 ? params.pair_ratio : params.leg_ratio,
+                  0.5 * (legs.front().confidence + legs.back().confidence));
+}
 
 }  // namespace
 
@@ -77,14 +85,11 @@ PeopleTracker::Look PeopleTracker::look(Detector detector, const RangeProfile& p
   return {profile, sarn::inverse(frame_from_sensor), now_ - stamp, dt};
 }
 
-void PeopleTracker::see(PersonTrack& track, const Eigen::Vector2d& position, double sigma, double ratio,
-                        double age, Detector detector) {
-  track.filter.update(position, sigma, age);
+void PeopleTracker::seen(PersonTrack& track, double ratio, double age, Detector detector) const {
   track.existence = std::min(kMaxExistence, existenceAfterDetection(track.existence, ratio));
   track.last_seen = std::max(track.last_seen, now_ - age);
   ++track.detections;
   ++track.seen_by[static_cast<std::size_t>(detector)];
-  if (detector == Detector::kBodies) track.body_seen = std::max(track.body_seen, now_ - age);
   judgeStanding(track);
 }
 
@@ -108,7 +113,7 @@ void PeopleTracker::miss(PersonTrack& track, const Look& look) const {
 }
 
 void PeopleTracker::giveLegs(const std::vector<Leg>& legs, bool confirmed,
-                             std::vector<std::size_t>& available, std::vector<bool>& seen, double age) {
+                             std::vector<std::size_t>& available, std::vector<bool>& is_seen, double age) {
   std::vector<std::size_t> owners;
   std::vector<const WalkingFilter*> people;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
@@ -118,20 +123,11 @@ void PeopleTracker::giveLegs(const std::vector<Leg>& legs, bool confirmed,
   }
   LegShares shares = shareLegs(people, legs, available, age, params_);
   for (std::size_t i = 0; i < owners.size(); ++i) {
-    const std::vector<std::size_t>& own = shares.of_person[i];
-    if (own.empty()) continue;
-    const Leg& first = legs[own.front()];
-    const Leg& last = legs[own.back()];
-    const bool pair = own.size() == 2;
-    // Torsos do not swing: beside one, legs tell little of where somebody is.
-    const bool beside_torso = now_ - tracks_[owners[i]].body_seen < kSeen;
-    const double swing = pair ? params_.pair_sigma : params_.leg_sigma;
-    const double sigma =
-        std::hypot(beside_torso ? params_.swing_factor * swing : swing, 0.5 * (first.sigma + last.sigma));
-    const double ratio =
-        weighted(pair ? params_.pair_ratio : params_.leg_ratio, 0.5 * (first.confidence + last.confidence));
-    see(tracks_[owners[i]], 0.5 * (first.position + last.position), sigma, ratio, age, Detector::kLegs);
-    seen[owners[i]] = true;
+    if (shares.of_person[i].empty()) continue;
+    const std::vector<Leg> own = measured(legs, shares.of_person[i]);
+    tracks_[owners[i]].filter.updateLegs(own, age);
+    seen(tracks_[owners[i]], ratioOf(own, params_), age, Detector::kLegs);
+    is_seen[owners[i]] = true;
   }
   available = std::move(shares.unclaimed);
 }
@@ -149,19 +145,17 @@ bool PeopleTracker::addLegs(const std::vector<Leg>& legs, const RangeProfile& pr
     if (!seen[i]) miss(tracks_[i], now);
   }
   for (const auto& own : pairLegs(legs, available, params_.max_leg_separation)) {
-    const Leg& first = legs[own.front()];
-    const Leg& last = legs[own.back()];
-    const bool pair = own.size() == 2;
-    found(0.5 * (first.position + last.position), pair ? params_.pair_sigma : params_.leg_sigma,
-          weighted(pair ? params_.pair_ratio : params_.leg_ratio, 0.5 * (first.confidence + last.confidence)),
-          now.age, Detector::kLegs);
+    const std::vector<Leg> both = measured(legs, own);
+    WalkingFilter filter = newcomer(0.5 * (both.front().position + both.back().position), kAnywhere);
+    filter.updateLegs(both, 0.0);
+    found(filter, ratioOf(both, params_), now.age, Detector::kLegs);
   }
   finish();
   return true;
 }
 
 void PeopleTracker::giveBodies(const std::vector<Body>& bodies, bool confirmed,
-                               std::vector<std::size_t>& available, std::vector<bool>& seen, double age) {
+                               std::vector<std::size_t>& available, std::vector<bool>& is_seen, double age) {
   std::vector<std::size_t> owners;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (tracks_[i].confirmed == confirmed) owners.push_back(i);
@@ -185,10 +179,10 @@ void PeopleTracker::giveBodies(const std::vector<Body>& bodies, bool confirmed,
     if (columns[i] < 0) continue;
     const std::size_t index = available[static_cast<std::size_t>(columns[i])];
     const Body& body = bodies[index];
-    see(tracks_[owners[i]], body.position, sigma(body), weighted(params_.body_ratio, body.confidence), age,
-        Detector::kBodies);
+    tracks_[owners[i]].filter.update(body.position, sigma(body), age);
+    seen(tracks_[owners[i]], weighted(params_.body_ratio, body.confidence), age, Detector::kBodies);
     taken[index] = true;
-    seen[owners[i]] = true;
+    is_seen[owners[i]] = true;
   }
   available.erase(
       std::remove_if(available.begin(), available.end(), [&](std::size_t body) { return taken[body]; }),
@@ -208,8 +202,8 @@ bool PeopleTracker::addBodies(const std::vector<Body>& bodies, const RangeProfil
     if (!seen[i]) miss(tracks_[i], now);
   }
   for (const std::size_t i : available) {
-    found(bodies[i].position, params_.body_sigma, weighted(params_.body_ratio, bodies[i].confidence), now.age,
-          Detector::kBodies);
+    found(newcomer(bodies[i].position, params_.body_sigma),
+          weighted(params_.body_ratio, bodies[i].confidence), now.age, Detector::kBodies);
   }
   finish();
   return true;
@@ -221,13 +215,29 @@ bool PeopleTracker::nearSomebody(const Eigen::Vector2d& position, double age) co
   });
 }
 
-void PeopleTracker::found(const Eigen::Vector2d& position, double sigma, double ratio, double age,
-                          Detector detector) {
-  if (nearSomebody(position, age)) return;
-  PersonTrack track{next_id_++, WalkingFilter(position, sigma, params_.initial_speed_sigma)};
+WalkingFilter PeopleTracker::newcomer(const Eigen::Vector2d& position, double sigma) const {
+  return {position,
+          sigma,
+          params_.initial_speed_sigma,
+          {params_.stance_sigma, params_.swing_time, params_.settle_time}};
+}
+
+std::vector<Leg> PeopleTracker::measured(const std::vector<Leg>& legs,
+                                         const std::vector<std::size_t>& own) const {
+  std::vector<Leg> result;
+  for (const std::size_t i : own) {
+    result.push_back(legs[i]);
+    result.back().sigma = std::hypot(params_.leg_sigma, legs[i].sigma);
+  }
+  return result;
+}
+
+void PeopleTracker::found(const WalkingFilter& filter, double ratio, double age, Detector detector) {
+  if (nearSomebody(filter.position(), age)) return;
+  PersonTrack track{next_id_++, filter};
   track.existence = existenceAfterDetection(params_.birth_existence, ratio);
   track.first_seen = track.last_seen = track.halted = now_ - age;
-  track.halt = position;
+  track.halt = filter.position();
   track.detections = 1;
   track.seen_by[static_cast<std::size_t>(detector)] = 1;
   tracks_.push_back(track);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sarn_perception/walking_filter.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -12,29 +11,22 @@ constexpr double kLeastShare = 1e-3;  // of a model, so that it can come back
 
 /// Mean and covariance of two normal distributions mixed in shares.
 PersonFilter mixture(const std::array<PersonFilter, 2>& filters, const std::array<double, 2>& shares) {
-  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+  PersonFilter::State mean = PersonFilter::State::Zero();
   for (std::size_t i = 0; i < 2; ++i) mean += shares[i] * filters[i].state();
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  PersonFilter::Covariance covariance = PersonFilter::Covariance::Zero();
   for (std::size_t i = 0; i < 2; ++i) {
-    const Eigen::Vector4d apart = filters[i].state() - mean;
-    covariance += shares[i] * (filters[i].covariance() + apart * apart.transpose());
+    const PersonFilter::State apart = filters[i].state() - mean;
+    covariance += shares[i] * (filters[i].fullCovariance() + apart * apart.transpose());
   }
-  return {mean, covariance};
-}
-
-/// Density of what was measured, by a filter's prediction.
-double likelihood(const PersonFilter& filter, const Eigen::Vector2d& position, double sigma, double age) {
-  const Eigen::Matrix2d covariance = filter.innovationCovariance(sigma, age);
-  const Eigen::Vector2d innovation = position - filter.positionBefore(age);
-  return std::exp(-0.5 * innovation.dot(covariance.inverse() * innovation)) /
-         std::sqrt(covariance.determinant());
+  return {mean, covariance, filters[0].gait()};
 }
 
 }  // namespace
 
-WalkingFilter::WalkingFilter(const Eigen::Vector2d& position, double position_sigma, double speed_sigma)
-    : filters_{PersonFilter(position, position_sigma, speed_sigma),
-               PersonFilter(position, position_sigma, speed_sigma)},
+WalkingFilter::WalkingFilter(const Eigen::Vector2d& position, double position_sigma, double speed_sigma,
+                             const GaitModel& gait)
+    : filters_{PersonFilter(position, position_sigma, speed_sigma, gait),
+               PersonFilter(position, position_sigma, speed_sigma, gait)},
       mixed_(filters_[kSteady]) {}
 
 void WalkingFilter::mix(double dt, const WalkingModel& model) {
@@ -75,19 +67,24 @@ void WalkingFilter::rest(double dt, double wander) {
   combine();
 }
 
-void WalkingFilter::update(const Eigen::Vector2d& position, double sigma, double age) {
+void WalkingFilter::update(const PersonMeasurement& measured) {
+  const std::array<double, 2> cost{filters_[kSteady].cost(measured), filters_[kChanging].cost(measured)};
+  const double least = std::min(cost[kSteady], cost[kChanging]);
   std::array<double, 2> weight{};
   for (std::size_t i = 0; i < 2; ++i) {
-    weight[i] = share_[i] * likelihood(filters_[i], position, sigma, age);
-    filters_[i].update(position, sigma, age);
+    weight[i] = share_[i] * std::exp(-0.5 * (cost[i] - least));
+    filters_[i].update(measured);
   }
   const double total = weight[kSteady] + weight[kChanging];
-  // Both may say "impossible": then nothing is learned about which of them is right.
-  if (total > 0.0) {
-    share_[kSteady] = std::clamp(weight[kSteady] / total, kLeastShare, 1.0 - kLeastShare);
-    share_[kChanging] = 1.0 - share_[kSteady];
-  }
+  share_[kSteady] = std::clamp(weight[kSteady] / total, kLeastShare, 1.0 - kLeastShare);
+  share_[kChanging] = 1.0 - share_[kSteady];
   combine();
+}
+
+void WalkingFilter::updateLegs(const std::vector<Leg>& legs, double age) {
+  const PersonMeasurement one_way = legsAt(legs, 1.0, age);
+  const PersonMeasurement other_way = legsAt(legs, -1.0, age);
+  update(mixed_.cost(one_way) <= mixed_.cost(other_way) ? one_way : other_way);
 }
 
 void WalkingFilter::halt() {

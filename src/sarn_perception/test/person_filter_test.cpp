@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <random>
 
 namespace sarn_perception {
@@ -52,6 +53,63 @@ TEST(PersonFilter, takesALateMeasurementAtItsTime) {
   PersonFilter naive = filter;
   naive.update({before.x() - 0.2, 0.0}, 0.02, 0.0);
   EXPECT_LT(naive.position().x(), before.x() - 0.02) << "as a present one it would pull back";
+}
+
+/// The legs of somebody who walks along x at 1 m/s, at a time [s]: 0.09 m to each side, swinging by 0.3 m.
+std::vector<Leg> legsOfAWalker(double time) {
+  const double swing = 0.3 * std::sin(5.0 * time);
+  return {{{time + swing, 0.09}, 0.01}, {{time - swing, -0.09}, 0.01}};
+}
+
+TEST(PersonFilter, twoLegsTellTheMiddleAndTheOffset) {
+  PersonFilter filter({0.3, 0.3}, 0.5, 0.6);
+  filter.update(legsAt({{{1.0, 0.1}, 0.01}, {{1.2, -0.1}, 0.01}}, 1.0, 0.0));
+  EXPECT_NEAR((filter.position() - Eigen::Vector2d(1.1, 0.0)).norm(), 0.0, 1e-3);
+  EXPECT_NEAR((filter.legOffset() - Eigen::Vector2d(-0.1, 0.1)).norm(), 0.0, 5e-3);
+  EXPECT_NEAR(filter.positionSigma(), 0.01 / std::sqrt(2.0), 1e-3);
+}
+
+TEST(PersonFilter, oneLegTellsTheMiddleNoBetterThanTheStance) {
+  PersonFilter filter({0.0, 0.0}, 0.5, 0.6);
+  filter.update(legsAt({{{0.0, 0.0}, 0.01}}, 1.0, 0.0));
+  EXPECT_NEAR(filter.positionSigma(), GaitModel{}.stance_sigma, 0.01);
+}
+
+/// The far leg disappears behind the near one for 0.2 s, which swings at up to 2.5 m/s meanwhile.
+TEST(PersonFilter, aSwingingLegDoesNotPassForAPerson) {
+  PersonFilter filter({0.0, 0.0}, 0.5, 0.6);
+  PersonFilter naive = filter;
+  double error = 0.0;
+  double naive_error = 0.0;
+  for (int i = 1; i <= 90; ++i) {
+    const double time = i / 30.0;
+    std::vector<Leg> legs = legsOfAWalker(time);
+    const bool hidden = i > 80 && i % 30 < 27;
+    if (hidden) legs.pop_back();
+    filter.predict(1.0 / 30.0, 0.1);
+    filter.update(legsAt(legs, 1.0, 0.0));
+    naive.predict(1.0 / 30.0, 0.1);
+    naive.update(0.5 * (legs.front().position + legs.back().position), 0.01, 0.0);
+    if (!hidden) continue;
+    error = std::max(error, std::abs(filter.velocity().x() - 1.0));
+    naive_error = std::max(naive_error, std::abs(naive.velocity().x() - 1.0));
+  }
+  EXPECT_LT(error, 0.2);
+  EXPECT_GT(naive_error, 2.0 * error);
+}
+
+TEST(PersonFilter, forgetsTheOffsetOfLegsAndSpreadsItAlongTheWay) {
+  PersonFilter filter({0.0, 0.0}, 0.01, 0.0);
+  for (int i = 1; i <= 60; ++i) {
+    filter.predict(1.0 / 30.0, 0.1);
+    filter.update(legsAt(legsOfAWalker(i / 30.0), 1.0, 0.0));
+  }
+  const GaitModel gait;
+  filter.predict(10.0 * gait.settle_time, 1e-6);
+  const Eigen::Matrix2d spread = filter.fullCovariance().bottomRightCorner<2, 2>();
+  EXPECT_LT(filter.legOffset().norm(), 1e-3);
+  EXPECT_NEAR(std::sqrt(spread(0, 0)), gait.stance_sigma + gait.swing_time * filter.velocity().norm(), 5e-3);
+  EXPECT_NEAR(std::sqrt(spread(1, 1)), gait.stance_sigma, 5e-3);
 }
 
 TEST(PersonFilter, staysPositive) {

@@ -89,6 +89,23 @@ TEST(WalkingFilter, isASingleFilterWhereBothModelsAreOne) {
   EXPECT_NEAR(walking.changing(), 0.5, 1e-9);
 }
 
+TEST(WalkingFilter, findsOutWhichLegIsWhich) {
+  WalkingFilter sorted({0.0, 0.0}, 0.5, 0.6);
+  WalkingFilter mixed_up = sorted;
+  for (int i = 1; i <= 60; ++i) {
+    const double x = kStep * i;
+    const Leg left{{x, 0.09}, 0.01};
+    const Leg right{{x, -0.09}, 0.01};
+    sorted.predict(kStep, kModel);
+    sorted.updateLegs({left, right}, 0.0);
+    mixed_up.predict(kStep, kModel);
+    mixed_up.updateLegs(i % 3 == 0 ? std::vector<Leg>{left, right} : std::vector<Leg>{right, left}, 0.0);
+  }
+  EXPECT_NEAR((sorted.velocity() - mixed_up.velocity()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((sorted.position() - mixed_up.position()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(sorted.velocity().x(), 1.0, 0.02);
+}
+
 TEST(WalkingFilter, survivesWhatNeitherModelExplains) {
   WalkingFilter filter({0.0, 0.0}, 0.01, 0.1);
   filter.update({1e4, 0.0}, 0.01, 0.0);

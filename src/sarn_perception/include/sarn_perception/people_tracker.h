@@ -26,7 +26,6 @@ struct PersonTrack {
   double last_seen = 0.0;                          // [s]
   int detections = 0;                              // so far
   std::array<int, 2> seen_by{};                    // detections by each detector
-  double body_seen = -1e9;                         // [s] when its torso was seen last
   Eigen::Vector2d halt = Eigen::Vector2d::Zero();  // [m] has kept near this place
   double halted = 0.0;                             // [s] since then
   bool standing = false;                           // when last seen
@@ -76,8 +75,8 @@ class PeopleTracker {
   bool begin(Detector detector, double stamp);
   [[nodiscard]] Look look(Detector detector, const RangeProfile& profile,
                           const sarn::Pose2D& frame_from_sensor, double stamp);
-  void see(PersonTrack& track, const Eigen::Vector2d& position, double sigma, double ratio, double age,
-           Detector detector);
+  /// After the filter of a track was told what a detector saw.
+  void seen(PersonTrack& track, double ratio, double age, Detector detector) const;
   void judgeStanding(PersonTrack& track) const;
   void predict(PersonTrack& track, double dt) const;
   void miss(PersonTrack& track, const Look& look) const;
@@ -86,7 +85,13 @@ class PeopleTracker {
   void giveBodies(const std::vector<Body>& bodies, bool confirmed, std::vector<std::size_t>& available,
                   std::vector<bool>& seen, double age);
   [[nodiscard]] bool nearSomebody(const Eigen::Vector2d& position, double age) const;
-  void found(const Eigen::Vector2d& position, double sigma, double ratio, double age, Detector detector);
+  /// Begins a track, unless somebody is known there.
+  void found(const WalkingFilter& filter, double ratio, double age, Detector detector);
+  /// Somebody new at a place that was measured with this standard deviation [m].
+  [[nodiscard]] WalkingFilter newcomer(const Eigen::Vector2d& position, double sigma) const;
+  /// Legs that belong to one person, as the filter takes them.
+  [[nodiscard]] std::vector<Leg> measured(const std::vector<Leg>& legs,
+                                          const std::vector<std::size_t>& own) const;
   void finish();
   void mergeDoubles();
 

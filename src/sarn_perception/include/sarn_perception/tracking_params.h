@@ -73,7 +73,7 @@ struct BodyParams {
   double min_width = 0.16;                // [m] across the line of sight
   double max_width = 0.70;                // [m] of one person; wider clusters are split
   double max_cluster_width = 2.2;         // [m] wider clusters are nobody
-  double depth_offset = 0.12;             // [m] from the mean of the visible surface to the middle of a body
+  double depth_offset = 0.09;             // [m] from the mean of the visible surface to the middle of a body
   double min_share = 0.25;                // of the pixels that a torso in full view would get
   double unknown_confidence = 0.5;        // factor where the map knows nothing
 
@@ -112,10 +112,11 @@ struct TrackerParams {
   double stay_speed = 0.3;         // [m/s] no faster at last: stands, and goes on standing when out of view
   double stay_wander = 0.005;      // [m^2/s] growth of the variance of their place on each axis meanwhile
   double initial_speed_sigma = 0.6;    // [m/s] on each axis, of a new track
-  double pair_sigma = 0.06;            // [m] of a person's middle between two legs, on each axis
-  double leg_sigma = 0.20;             // [m] of a person's middle when one leg is seen
-  double swing_factor = 2.5;           // [1] on the two above, of who is seen by the torso too
-  double body_sigma = 0.03;            // [m] of a person's middle from the torso
+  double leg_sigma = 0.01;             // [m] of a leg, on each axis, beside what the detector tells
+  double body_sigma = 0.05;            // [m] of a person's middle from the torso, likewise
+  double stance_sigma = 0.09;          // [m] of a leg about the middle between both, on each axis
+  double swing_time = 0.15;            // [s] times the speed: what comes to that along the way
+  double settle_time = 0.25;           // [s] in which a leg's offset from the middle is forgotten
   double gait_sigma = 0.16;            // [m] of a leg about a person's middle, in the association
   double gate = 9.21;                  // squared Mahalanobis distance; 99 % in two dimensions
   double max_gate_distance = 0.9;      // [m] however uncertain a track is
@@ -152,10 +153,11 @@ struct TrackerParams {
     v("stay_speed", p.stay_speed, {0.0, 5.0});
     v("stay_wander", p.stay_wander, {0.0, 1.0});
     v("initial_speed_sigma", p.initial_speed_sigma, {0.0, 10.0});
-    v("pair_sigma", p.pair_sigma, {0.001, 1.0});
     v("leg_sigma", p.leg_sigma, {0.001, 1.0});
-    v("swing_factor", p.swing_factor, {1.0, 100.0});
     v("body_sigma", p.body_sigma, {0.001, 1.0});
+    v("stance_sigma", p.stance_sigma, {0.001, 1.0});
+    v("swing_time", p.swing_time, {0.0, 1.0});
+    v("settle_time", p.settle_time, {0.01, 10.0});
     v("gait_sigma", p.gait_sigma, {0.001, 1.0});
     v("gate", p.gate, {0.1, 100.0});
     v("max_gate_distance", p.max_gate_distance, {0.05, 10.0});

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 #include "sarn_perception/person_filter.h"
 
@@ -23,7 +24,8 @@ struct WalkingModel {
 class WalkingFilter {
  public:
   /// At a measured position [m] with its standard deviation [m], at rest up to `speed_sigma` [m/s] an axis.
-  WalkingFilter(const Eigen::Vector2d& position, double position_sigma, double speed_sigma);
+  WalkingFilter(const Eigen::Vector2d& position, double position_sigma, double speed_sigma,
+                const GaitModel& gait = {});
 
   /// Goes `dt` [s] >= 0 ahead, of somebody who is seen.
   void predict(double dt, const WalkingModel& model);
@@ -32,14 +34,19 @@ class WalkingFilter {
   /// Goes `dt` [s] >= 0 ahead, of somebody who stands unseen; as PersonFilter's.
   void rest(double dt, double wander);
   /// As PersonFilter's.
-  void update(const Eigen::Vector2d& position, double sigma, double age);
+  void update(const Eigen::Vector2d& position, double sigma, double age) {
+    update(middleAt(position, sigma, age));
+  }
+  /// Takes in one or two legs that were seen `age` [s] >= 0 ago, as the sides they most likely are.
+  void updateLegs(const std::vector<Leg>& legs, double age);
   [[nodiscard]] Eigen::Matrix2d innovationCovariance(double sigma, double age) const {
     return mixed_.innovationCovariance(sigma, age);
   }
   [[nodiscard]] Eigen::Vector2d positionBefore(double age) const { return mixed_.positionBefore(age); }
   [[nodiscard]] Eigen::Vector2d position() const { return mixed_.position(); }  // [m]
   [[nodiscard]] Eigen::Vector2d velocity() const { return mixed_.velocity(); }  // [m/s]
-  [[nodiscard]] const Eigen::Matrix4d& covariance() const { return mixed_.covariance(); }
+  /// Of position and velocity.
+  [[nodiscard]] Eigen::Matrix4d covariance() const { return mixed_.covariance(); }
   [[nodiscard]] double positionSigma() const { return mixed_.positionSigma(); }
   void halt();
 
@@ -50,6 +57,7 @@ class WalkingFilter {
   static constexpr std::size_t kSteady = 0;
   static constexpr std::size_t kChanging = 1;
 
+  void update(const PersonMeasurement& measured);
   void mix(double dt, const WalkingModel& model);
   void combine();
 
