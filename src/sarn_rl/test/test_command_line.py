@@ -129,7 +129,7 @@ def test_table_goes_on_where_it_was_interrupted(
 
     monkeypatch.setattr(table_rows, "run_cases", until_killed)
     assert main(arguments) != 0
-    assert [row["policy"] for row in json.loads(out.read_text())].count("lstm_rl") == 2
+    assert sum(row["seed"] != "mean" for row in json.loads(out.read_text())) == most[0]
     measured.clear()
     most[0] = 100
     assert main([*arguments, "--resume"]) == 0
