@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sarn_common/segments.h"
+
 namespace lattice_planner {
 namespace {
 
@@ -18,13 +20,6 @@ using Points = std::vector<Eigen::Vector2d>;
 constexpr double kThinnest = 1e-3;  // [m] half width that a core keeps where it would be a line
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double distanceToSegment(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d d = b - a;
-  const double length = d.squaredNorm();
-  const double share = length > 0.0 ? std::clamp(-a.dot(d) / length, 0.0, 1.0) : 0.0;
-  return (a + share * d).norm();
-}
 
 /// Crossings of the ray from the origin along +x (Shimrat 1962).
 bool holdsOrigin(const Points& corners) {
@@ -83,8 +78,9 @@ Footprint makeFootprint(Points corners) {
     if (!corners[i].allFinite())
       throw std::invalid_argument("corner " + std::to_string(i) + " is not finite");
     footprint.circumscribed_radius = std::max(footprint.circumscribed_radius, corners[i].norm());
-    footprint.inscribed_radius = std::min(footprint.inscribed_radius,
-                                          distanceToSegment(corners[i], corners[(i + 1) % corners.size()]));
+    footprint.inscribed_radius = std::min(
+        footprint.inscribed_radius,
+        sarn::distanceToSegment(Eigen::Vector2d::Zero(), corners[i], corners[(i + 1) % corners.size()]));
   }
   if (footprint.circumscribed_radius > 10.0) throw std::invalid_argument("a corner is more than 10 m away");
   if (!holdsOrigin(corners) || footprint.inscribed_radius < 0.01)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sarn_common/angles.h"
+#include "sarn_common/segments.h"
 
 namespace sarn_move_base {
 namespace {
@@ -22,19 +23,12 @@ constexpr double kNegligible = 1e-6;   // [m], [rad]
 
 using Points = std::vector<Eigen::Vector2d>;
 
-double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d d = b - a;
-  const double length2 = d.squaredNorm();
-  const double s = length2 > 0.0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  return (p - (a + s * d)).norm();
-}
-
 /// Douglas and Peucker 1973, between two kept points.
 void simplify(const Points& points, std::size_t first, std::size_t last, std::vector<bool>& kept) {
   double farthest = kTolerance;
   std::size_t at = first;
   for (std::size_t i = first + 1; i < last; ++i) {
-    const double distance = distanceToSegment(points[i], points[first], points[last]);
+    const double distance = sarn::distanceToSegment(points[i], points[first], points[last]);
     if (distance > farthest) {
       farthest = distance;
       at = i;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sarn_common/segments.h"
+
 namespace social_costmap {
 namespace {
 
@@ -17,13 +19,6 @@ void extendChain(Polygon& hull, std::size_t chain_begin, const Eigen::Vector2d& 
   while (hull.size() >= chain_begin + 2 && cross(hull[hull.size() - 2], hull.back(), point) <= 0.0)
     hull.pop_back();
   hull.push_back(point);
-}
-
-double distanceToSegment(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d d = b - a;
-  const double length2 = d.squaredNorm();
-  const double s = length2 > 0.0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - s * d).norm();
 }
 
 std::size_t rootOf(const std::vector<std::size_t>& parent, std::size_t i) {
@@ -82,7 +77,7 @@ double distanceTo(const Polygon& polygon, const Eigen::Vector2d& point) {
     const Eigen::Vector2d& a = polygon[i];
     const Eigen::Vector2d& b = polygon[(i + 1) % polygon.size()];
     if (cross(a, b, point) < 0.0) inside = false;
-    nearest = std::min(nearest, distanceToSegment(a, b, point));
+    nearest = std::min(nearest, sarn::distanceToSegment(point, a, b));
   }
   return inside ? 0.0 : nearest;
 }

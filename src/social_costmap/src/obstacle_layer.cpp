@@ -7,19 +7,13 @@
 
 #include "sarn_common/cost_values.h"
 #include "sarn_common/distance_transform.h"
+#include "sarn_common/segments.h"
 
 namespace social_costmap {
 namespace {
 
 constexpr double kRounding = 1e-4;    // [m] of distances in single precision
 constexpr double kLongestMove = 1.0;  // [s] people are not moved on by more than this
-
-double distanceToSegment(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d d = b - a;
-  const double length2 = d.squaredNorm();
-  const double s = length2 > 0.0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - s * d).norm();
-}
 
 Eigen::Vector2d directionOfBeam(const Scan& scan, std::size_t beam) {
   const double angle =
@@ -94,7 +88,7 @@ void ObstacleLayer::locatePeopleAt(double stamp) {
 
 bool ObstacleLayer::belongsToPerson(const Eigen::Vector2d& point) const {
   return std::any_of(segments_.begin(), segments_.end(), [&](const PersonSegment& s) {
-    return distanceToSegment(s.from, s.to, point) <= params_.person_clear_radius;
+    return sarn::distanceToSegment(point, s.from, s.to) <= params_.person_clear_radius;
   });
 }
 
