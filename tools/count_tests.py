@@ -3,7 +3,8 @@
 """Sums up a test run in one line, `N passed, N failed`: count_tests.py BUILD_FOLDER [STATUS_OF_MAKE_CHECK].
 
 Counts the cases in the result files below BUILD_FOLDER/test_results, and as one failure each: a program that
-ctest says failed although none of its cases did (it crashed, or hung), and a failed make check.
+ctest says failed although none of its cases did (it crashed, or hung), a test node that died before it wrote its
+results (rostest calls that passed, of 0 tests), and a failed make check.
 """
 
 from __future__ import annotations
@@ -41,6 +42,20 @@ def result_files(build: Path) -> List[Path]:
     return [file for file in build.glob("test_results/**/*.xml") if not file.name.startswith("rosunit-")]
 
 
+def silent_nodes(build: Path) -> List[str]:
+    """Test nodes of a rostest that left a result file without results."""
+    files = sorted(build.glob("test_results/**/rosunit-*.xml"))
+    return [file.stem for file in files if not _parses(file)]
+
+
+def _parses(file: Path) -> bool:
+    try:
+        ElementTree.parse(file)
+    except ElementTree.ParseError:
+        return False
+    return True
+
+
 def failed_programs(build: Path) -> List[str]:
     """Names of the ctest tests that failed."""
     files = sorted(build.glob("ctest*.xml"))
@@ -59,9 +74,12 @@ def main() -> int:
         total += count_cases(file)
     programs = failed_programs(build)
     unexplained = max(0, len(programs) - total.failed)
-    total += Count(failed=unexplained + check_failed)
+    silent = silent_nodes(build)
+    total += Count(failed=unexplained + len(silent) + check_failed)
     for name in programs:
         print(f"failed: {name}")
+    for name in silent:
+        print(f"failed: {name} died before it wrote its results")
     if check_failed:
         print("failed: make check")
     print(

@@ -48,3 +48,11 @@ def test_summary_line(tmp_path, cases, ctest, check, line, code):
 def test_a_result_that_cannot_be_read_is_a_failure(tmp_path):
     line, code = summary(tmp_path, "<broken", PASSED)
     assert (line, code) == ("0 passed, 1 failed", 1)
+
+
+def test_a_test_node_that_died_silently_is_a_failure(tmp_path):
+    """Killed, it leaves an empty file, and rostest says "passed" with 0 tests."""
+    results = tmp_path / "test_results" / "another_package"
+    results.mkdir(parents=True)
+    (results / "rosunit-node.xml").touch()
+    assert summary(tmp_path, GOOD, PASSED) == ("2 passed, 1 failed", 1)
