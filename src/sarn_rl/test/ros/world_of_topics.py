@@ -22,12 +22,15 @@ from nav_msgs.msg import OccupancyGrid, Odometry
 from people_msgs.msg import People, Person
 from rosgraph_msgs.msg import Clock
 from sarn_msgs.msg import NavigationStatus, PolicyDecision
+from std_msgs.msg import Time
 from tf2_msgs.msg import TFMessage
 
 from sarn_rl.joint_state import JointState
+from sarn_rl.ros import topics
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "policy"
 PATIENCE = 100.0  # [s] wall, for what must come
+LAG = 0.1  # [s] that the node may be behind the clock
 
 Planar = Tuple[float, float, float]  # x, y [m], yaw [rad]
 
@@ -75,6 +78,8 @@ class WorldOfTopics:
         self.decisions: queue.Queue[PolicyDecision] = queue.Queue()
         self.command: Optional[Twist] = None
         self.status: Optional[NavigationStatus] = None
+        self._acted: Optional[float] = None  # [s] until when the node has acted
+        rospy.Subscriber(topics.LOCKSTEP, Time, lambda m: setattr(self, "_acted", m.data.to_sec()))
         rospy.Subscriber("policy/decision", PolicyDecision, self.decisions.put)
         rospy.Subscriber("cmd_vel", Twist, lambda message: setattr(self, "command", message))
         rospy.Subscriber("navigation_status", NavigationStatus, lambda m: setattr(self, "status", m))
@@ -112,7 +117,7 @@ class WorldOfTopics:
             time.sleep(0.01)
         self._node.kill()
         self._node.wait()
-        self._node = None
+        self._node = self._acted = None
 
     # --- Time
 
@@ -122,11 +127,14 @@ class WorldOfTopics:
         self._clock.publish(Clock(at(self.now)))
 
     def until(self, condition: Any, complaint: str, beat: Any = None) -> None:
-        """Waits for a condition in wall time; `beat` is called meanwhile."""
+        """Waits for a condition in wall time; `beat` is called meanwhile, whenever the node has kept up.
+
+        A clock that runs ahead of a busy node takes its goal's time away: it gives up before it has acted.
+        """
         deadline = time.monotonic() + PATIENCE
         while not condition():
             assert time.monotonic() < deadline, complaint
-            if beat is not None:
+            if beat is not None and (self._acted is None or self._acted >= self.now - LAG):
                 beat()
             time.sleep(0.01)
 
