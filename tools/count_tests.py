@@ -3,8 +3,8 @@
 """Sums up a test run in one line, `N passed, N failed`: count_tests.py BUILD_FOLDER [STATUS_OF_MAKE_CHECK].
 
 Counts the cases in the result files below BUILD_FOLDER/test_results, and as one failure each: a program that
-ctest says failed although none of its cases did (it crashed, or hung), a test node that died before it wrote its
-results (rostest calls that passed, of 0 tests), and a failed make check.
+ctest says failed although none of its cases did (it crashed, or hung), a test node that died before it wrote
+its results (rostest calls that passed, of 0 tests), and a failed make check.
 """
 
 from __future__ import annotations
