@@ -27,7 +27,8 @@ WalkingFilter::WalkingFilter(const Eigen::Vector2d& position, double position_si
                              const GaitModel& gait)
     : filters_{PersonFilter(position, position_sigma, speed_sigma, gait),
                PersonFilter(position, position_sigma, speed_sigma, gait)},
-      mixed_(filters_[kSteady]) {}
+      mixed_(filters_[kSteady]),
+      measured_(mixed_) {}
 
 void WalkingFilter::mix(double dt, const WalkingModel& model) {
   // Probabilities of a switch within dt, of a Markov chain in continuous time.
@@ -54,16 +55,26 @@ void WalkingFilter::predict(double dt, const WalkingModel& model) {
   mix(dt, model);
   filters_[kSteady].predict(dt, model.steady_density);
   filters_[kChanging].predict(dt, model.changing_density);
+  unseen_ += dt;
   combine();
 }
 
+void WalkingFilter::takeBackChanges(double density) {
+  if (!(unseen_ > 0.0)) return;
+  measured_.predict(unseen_, density);
+  filters_.fill(measured_);
+  unseen_ = 0.0;
+}
+
 void WalkingFilter::predict(double dt, double density) {
+  takeBackChanges(density);
   for (PersonFilter& filter : filters_) filter.predict(dt, density);
   combine();
 }
 
 void WalkingFilter::rest(double dt, double wander) {
   for (PersonFilter& filter : filters_) filter.rest(dt, wander);
+  unseen_ = 0.0;
   combine();
 }
 
@@ -79,6 +90,8 @@ void WalkingFilter::update(const PersonMeasurement& measured) {
   share_[kSteady] = std::clamp(weight[kSteady] / total, kLeastShare, 1.0 - kLeastShare);
   share_[kChanging] = 1.0 - share_[kSteady];
   combine();
+  measured_ = mixed_;
+  unseen_ = 0.0;
 }
 
 void WalkingFilter::updateLegs(const std::vector<Leg>& legs, double age) {
@@ -89,6 +102,7 @@ void WalkingFilter::updateLegs(const std::vector<Leg>& legs, double age) {
 
 void WalkingFilter::halt() {
   for (PersonFilter& filter : filters_) filter.halt();
+  measured_.halt();
   combine();
 }
 

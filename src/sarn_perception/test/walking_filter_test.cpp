@@ -115,6 +115,26 @@ TEST(WalkingFilter, survivesWhatNeitherModelExplains) {
   EXPECT_TRUE(filter.covariance().allFinite());
 }
 
+/// Until it is clear that somebody is out of sight, both models go on: what they might have done meanwhile is
+/// then taken back, or a walker would be lost within a second of leaving the view.
+TEST(WalkingFilter, goesOnFromTheLastMeasurementWhereNobodyLooks) {
+  constexpr double kDensity = 0.15;  // [m^2/s^3]
+  WalkingFilter filter({0.0, 0.0}, 0.05, 0.6);
+  Walk walk(2);
+  for (int i = 0; i < 60; ++i) {
+    filter.predict(kStep, kModel);
+    filter.update(walk.step({1.0, 0.0}), 0.05, 0.0);
+  }
+  const Eigen::Vector2d place = filter.position();
+  const Eigen::Vector2d velocity = filter.velocity();
+  const Eigen::Matrix4d known = filter.covariance();
+  for (int i = 0; i < 6; ++i) filter.predict(kStep, kModel);
+  for (int i = 0; i < 24; ++i) filter.predict(kStep, kDensity);
+  EXPECT_TRUE(filter.position().isApprox(place + velocity, 1e-9));
+  const double after = known(0, 0) + 2.0 * known(0, 2) + known(2, 2) + kDensity / 3.0;  // [m^2], of 1 s
+  EXPECT_NEAR(filter.covariance()(0, 0), after, 1e-9);
+}
+
 TEST(WalkingFilter, standsAfterAHalt) {
   WalkingFilter filter({0.0, 0.0}, 0.05, 0.6);
   Walk walk(4);

@@ -29,7 +29,8 @@ class WalkingFilter {
 
   /// Goes `dt` [s] >= 0 ahead, of somebody who is seen.
   void predict(double dt, const WalkingModel& model);
-  /// Goes `dt` [s] >= 0 ahead, of somebody who is not seen; `density` [m^2/s^3].
+  /// Goes `dt` [s] >= 0 ahead, of somebody who is not seen; `density` [m^2/s^3]. From the last measurement
+  /// on: what the model of changes allowed since then is taken back, as it holds for moments only.
   void predict(double dt, double density);
   /// Goes `dt` [s] >= 0 ahead, of somebody who stands unseen; as PersonFilter's.
   void rest(double dt, double wander);
@@ -60,10 +61,14 @@ class WalkingFilter {
   void update(const PersonMeasurement& measured);
   void mix(double dt, const WalkingModel& model);
   void combine();
+  /// Back to what was known when last measured, `unseen_` [s] ago, and from there on with `density`.
+  void takeBackChanges(double density);
 
   std::array<PersonFilter, 2> filters_;
   std::array<double, 2> share_{0.5, 0.5};  // probabilities of the two
   PersonFilter mixed_;                     // what both say together
+  PersonFilter measured_;                  // the same, just after the last measurement
+  double unseen_ = 0.0;                    // [s] predicted with both models since then
 };
 
 }  // namespace sarn_perception
