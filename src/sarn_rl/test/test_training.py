@@ -6,7 +6,7 @@ from __future__ import annotations
 import dataclasses
 import io
 from pathlib import Path
-from typing import Any
+from typing import Any, Dict, Optional
 
 import numpy as np
 import pytest
@@ -26,7 +26,7 @@ from sarn_rl.training.params import (
     TeacherParams,
     TrainingParams,
 )
-from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, STATE_FILE, Trainer
+from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, STATE_FILE, Trainer, selection_score
 
 pytestmark = pytest.mark.usefixtures("few_validation_cases")
 
@@ -174,6 +174,25 @@ def test_networks_are_compared_by_more_cases_near_the_end(tmp_path: Path) -> Non
     measured = [(entry["updates"], entry["judged_by"]) for entry in told]
     assert len(set(measured)) == len(measured)
     assert load_checkpoint(tmp_path / BEST_FILE).origin["validation"]["judged_by"] == 50
+
+
+def test_the_quickest_is_kept_of_those_that_arrive_often_enough() -> None:
+    def judged(
+        success: float, time_s: Optional[float], mean_return: float, cases: int = 500
+    ) -> Dict[str, Any]:
+        figures = {"judged_success": success, "judged_time_s": time_s, "judged_return": mean_return}
+        return {"judged_by": cases, "success": 1.0, **figures}
+
+    quick, sure, slow = judged(0.99, 10.5, 0.34), judged(0.996, 10.7, 0.33), judged(1.0, 10.9, 0.32)
+    never, early = judged(0.0, None, 0.0), judged(1.0, 10.0, 0.35, cases=100)
+
+    def best(wanted: float) -> Dict[str, Any]:
+        return max((quick, sure, slow, never, early), key=lambda result: selection_score(result, wanted))
+
+    assert best(0.995) is sure
+    assert best(0.0) is quick
+    assert best(1.0) is slow
+    assert max((quick, never), key=lambda result: selection_score(result, 0.995)) is quick
 
 
 def taught_params(**changes: Any) -> TrainingParams:

@@ -153,6 +153,8 @@ class LearningParams:
         selection_cases: cases beyond those of training by which, beside the validation cases, networks are
             compared from the episode selection_episode on.
         selection_episode: see above.
+        selection_success: share of the cases in which a network has to arrive to be compared by its time; one
+            that does not is worse and compared by its mean return; 0: all are.
         checkpoint_episodes: episodes between checkpoints.
         warmup_episodes: episodes before the first gradient step.
         people: how many, of one training case after the other; none: as in the environment.
@@ -181,6 +183,7 @@ class LearningParams:
     validation_episodes: int = 500
     selection_cases: int = 0
     selection_episode: int = 0
+    selection_success: float = 0.0
     checkpoint_episodes: int = 500
     warmup_episodes: int = 0
     people: Tuple[int, ...] = ()
@@ -209,7 +212,14 @@ class LearningParams:
                 found.append(f"{name}: {getattr(self, name)} is not >= 0")
         if min(self.people, default=0) < 0:
             found.append(f"people: {list(self.people)} is not a list of numbers >= 0")
-        for name in ("epsilon_start", "epsilon_end", "target_rate", "average_rate", "rehearsal"):
+        for name in (
+            "epsilon_start",
+            "epsilon_end",
+            "target_rate",
+            "average_rate",
+            "rehearsal",
+            "selection_success",
+        ):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 found.append(f"{name}: {getattr(self, name)} is not in 0..1")
         return tuple(found)

@@ -247,8 +247,7 @@ class Trainer:
             f"validation after {self._episodes} episodes: success {result['success']:.2f}, collision "
             f"{result['collision']:.2f}, time {time_s} s, discomfort {result['discomfort']:.3f}"
         )
-        # Judged by more cases comes before judged by fewer.
-        score = (result["judged_by"], result["judged_return"], result["success"])
+        score = selection_score(result, self._params.learning.selection_success)
         if score > self._best:
             self._best = score
             self._save_network(BEST_FILE, result)
@@ -256,14 +255,13 @@ class Trainer:
 
     def _run_validation(self) -> Dict[str, Any]:
         result = self._run_cases("validation", range(SPLIT_SIZES["validation"]))
-        judged_by, total = result["cases"], result["cases"] * result["mean_return"]
+        parts = [result]
         if self._is_selecting():
             count = self._params.learning.selection_cases
             numbers = range(FIRST_SELECTION_CASE, FIRST_SELECTION_CASE + count)
-            more = self._run_cases("training", numbers)
-            judged_by, total = judged_by + more["cases"], total + more["cases"] * more["mean_return"]
-            result["selection_success"] = more["success"]
-        return {**result, "judged_by": judged_by, "judged_return": total / judged_by}
+            parts.append(self._run_cases("training", numbers))
+            result = {**result, "selection_success": parts[1]["success"]}
+        return {**result, **_judged(parts)}
 
     def _is_selecting(self) -> bool:
         learning = self._params.learning
@@ -369,6 +367,34 @@ class Trainer:
         save_checkpoint(self._directory / name, Checkpoint(self._learner.average, self._contract, origin))
 
 
+def selection_score(result: Dict[str, Any], wanted_success: float) -> Tuple[float, ...]:
+    """Which of two networks is kept: that of the greater score.
+
+    Judged by more cases comes before judged by fewer. Then the one that arrives as often as it is wanted to;
+    of those that do the quicker, of the others that of the greater mean return.
+
+    Args:
+        result: of a validation.
+        wanted_success: share of the cases; 0: the mean return decides.
+    """
+    arrives = wanted_success > 0.0 and result["judged_success"] >= wanted_success
+    merit = -result["judged_time_s"] if arrives else result["judged_return"]
+    return (result["judged_by"], float(arrives), merit, result["success"])
+
+
+def _judged(parts: List[Dict[str, Any]]) -> Dict[str, Any]:
+    """Figures of all cases of several summaries."""
+    cases = sum(part["cases"] for part in parts)
+    arrived = [round(part["cases"] * part["success"]) for part in parts]
+    times = [0.0 if part["time_s"] is None else part["time_s"] for part in parts]
+    return {
+        "judged_by": cases,
+        "judged_return": sum(part["cases"] * part["mean_return"] for part in parts) / cases,
+        "judged_success": sum(arrived) / cases,
+        "judged_time_s": float(np.average(times, weights=arrived)) if sum(arrived) else None,
+    }
+
+
 def _passed(before: int, now: int, every: int) -> bool:
     return now // every > before // every
 
@@ -408,4 +434,4 @@ def _event_writer(directory: Path) -> Any:
     return SummaryWriter(str(directory))
 
 
-__all__ = ["DivergedError", "Trainer"]
+__all__ = ["DivergedError", "Trainer", "selection_score"]
