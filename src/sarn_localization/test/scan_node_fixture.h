@@ -5,7 +5,6 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
-#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Time.h>
 #include <tf2_msgs/TFMessage.h>
@@ -14,13 +13,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "drawn_map.h"
 #include "sarn_common_ros/conversions.h"
+#include "sarn_common_ros/warning_counter.h"
 
 namespace sarn_localization {
 
@@ -39,18 +38,17 @@ inline geometry_msgs::TransformStamped transform(const std::string& parent, cons
 /// The world of a node that hears scans: clock, odometry and scans of a robot on a circle in the uneven room.
 class ScanNodeTest : public testing::Test {
  protected:
-  explicit ScanNodeTest(std::string node) : node_(std::move(node)), walls_(unevenRoom()) {}
+  explicit ScanNodeTest(std::string node) : node_(std::move(node)), log_("/" + node_), walls_(unevenRoom()) {}
 
   void SetUp() override {
     clock_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
     scan_ = nh_.advertise<sensor_msgs::LaserScan>("scan", 10);
     transforms_ = nh_.subscribe("/tf", 100, &ScanNodeTest::onTransform, this);
     acknowledged_ = nh_.subscribe("lockstep/" + node_, 100, &ScanNodeTest::onAcknowledged, this);
-    log_ = nh_.subscribe("/rosout", 100, &ScanNodeTest::onLog, this);
     static_.sendTransform(transform("base_footprint", "camera_depth_frame", kSensor, ros::Time()));
     ASSERT_TRUE(await([this] {
       return scan_.getNumSubscribers() > 0 && acknowledged_.getNumPublishers() > 0 &&
-             transforms_.getNumPublishers() > 1;
+             transforms_.getNumPublishers() > 1 && log_.connected();
     }));
   }
 
@@ -60,17 +58,8 @@ class ScanNodeTest : public testing::Test {
     }
   }
   void onAcknowledged(const std_msgs::Time& message) { processed_ = std::max(processed_, message.data); }
-  void onLog(const rosgraph_msgs::Log& message) {
-    if (message.name == "/" + node_ && message.level >= rosgraph_msgs::Log::WARN) ++warnings_[message.msg];
-  }
   /// Warnings so far that contain a text.
-  int warnings(const std::string& text) const {
-    int count = 0;
-    for (const auto& [message, times] : warnings_) {
-      if (message.find(text) != std::string::npos) count += times;
-    }
-    return count;
-  }
+  int warnings(const std::string& text) const { return log_.count(text); }
 
   template <class Condition>
   static bool await(Condition condition) {
@@ -124,18 +113,18 @@ class ScanNodeTest : public testing::Test {
   static constexpr sarn::Pose2D kSensor{-0.087, 0.0475, 0.0};
   sarn::Twist2D odometry_twist_{0.51, 0.403};  // of the robot's 0.5 m/s and 0.4 rad/s
   std::string node_;
+  sarn::WarningCounter log_;
   WallDistance walls_;
   sarn::Pose2D truth_{4.0, 1.3, 0.0};
   sarn::Pose2D odometry_;
   ros::NodeHandle nh_;
   ros::Publisher clock_, scan_;
-  ros::Subscriber transforms_, acknowledged_, log_;
+  ros::Subscriber transforms_, acknowledged_;
   tf2_ros::TransformBroadcaster broadcaster_;
   tf2_ros::StaticTransformBroadcaster static_;
   std::optional<geometry_msgs::TransformStamped> map_from_odom_;
   static inline ros::Time now_{100.0};  // goes on from test to test, as the node lives on
   ros::Time processed_{0.0};
-  std::map<std::string, int> warnings_;
 };
 
 }  // namespace sarn_localization

@@ -105,7 +105,38 @@ void PeopleTrackerNode::takeMap(const nav_msgs::OccupancyGridConstPtr& map) {
                                                   << "; the last good map, if there is one, stays");
     return;
   }
+  const double resolution = values->geometry.resolution;
+  if (map_resolution_ && *map_resolution_ != resolution) {
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, map_subscriber_.getTopic()
+                                                 << ": its cells measure " << resolution
+                                                 << " m, before it were " << *map_resolution_
+                                                 << " m; walls are taken from it as it is");
+  }
+  map_resolution_ = resolution;
   perception_.setMap(*values);
+}
+
+void PeopleTrackerNode::remark(const sensor_msgs::LaserScan& scan) {
+  const std::string& topic = scan_subscriber_.getTopic();
+  const std::size_t beams = scan.ranges.size();
+  if (beam_count_ && *beam_count_ != beams) {
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, topic << ": " << beams << " beams, before it were "
+                                                   << *beam_count_ << "; taken as they are");
+  }
+  beam_count_ = beams;
+  if (scan_frame_ && *scan_frame_ != scan.header.frame_id) {
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, topic << ": frame '" << scan.header.frame_id
+                                                   << "', before it was '" << *scan_frame_
+                                                   << "'; taken as it is");
+  }
+  scan_frame_ = scan.header.frame_id;
+  // +Inf is one: free up to range_max (REP 117).
+  const auto says_something = [](float range) { return range >= 0.0F; };
+  if (std::none_of(scan.ranges.begin(), scan.ranges.end(), says_something)) {
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, topic << ": none of its " << beams
+                                                   << " ranges is a distance (NaN, -Inf or negative); "
+                                                      "people are only predicted");
+  }
 }
 
 bool PeopleTrackerNode::usable(const std_msgs::Header& header, const std::string& topic) const {
@@ -137,7 +168,7 @@ void PeopleTrackerNode::watchClock() {
     scans_.clear();
     images_.clear();
     transforms_.clear();
-    last_scan_ = next_publication_ = next_body_ = ros::Time();
+    last_scan_ = last_image_ = next_publication_ = next_body_ = ros::Time();
   }
   last_now_ = now;
 }
@@ -153,7 +184,14 @@ void PeopleTrackerNode::takeScan(const sensor_msgs::LaserScanConstPtr& scan) {
 
 void PeopleTrackerNode::takeImage(const sensor_msgs::ImageConstPtr& image) {
   watchClock();
-  if (!usable(image->header, image_subscriber_.getTopic())) return;
+  const std::string& topic = image_subscriber_.getTopic();
+  if (!usable(image->header, topic)) return;
+  if (image->header.stamp <= last_image_) {
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, topic << ": stamp " << image->header.stamp
+                                                   << " is not newer than the last image; left out");
+    return;
+  }
+  last_image_ = image->header.stamp;
   if (due(image->header.stamp, params_.body_rate, next_body_)) images_.add(image);
 }
 
@@ -162,8 +200,8 @@ std::optional<sarn::Pose2D> PeopleTrackerNode::planar(const std::string& target,
   try {
     const auto transform = transforms_.lookupTransform(target, source, stamp);
     if (const auto pose = sarn::fromMessage(transform.transform)) return pose;
-    ROS_ERROR_STREAM_THROTTLE(
-        kWarningPeriod, "tf: '" << source << "' is tilted against '" << target << "'; both must be level");
+    ROS_ERROR_STREAM_THROTTLE(kWarningPeriod, "tf: '" << source << "' holds NaN or is tilted against '"
+                                                      << target << "'; both must be level");
   } catch (const tf2::TransformException& error) {
     ROS_WARN_STREAM_THROTTLE(kWarningPeriod,
                              "tf: no pose of '" << source << "' in '" << target << "': " << error.what());
@@ -192,6 +230,7 @@ void PeopleTrackerNode::track(const sensor_msgs::LaserScanConstPtr& scan) {
   if (map && ready(topic)) {
     try {
       if (perception_.takeScan(fromMessage(*scan), {*sensor, *map}, stamp.toSec())) {
+        remark(*scan);
         last_scan_ = std::max(last_scan_, stamp);
         if (due(stamp, params_.rate, next_publication_)) publish(stamp, *map);
       } else {
@@ -218,10 +257,12 @@ void PeopleTrackerNode::lookForBodies(const sensor_msgs::ImageConstPtr& image) {
   if (!map || !ready(topic)) return;
   try {
     const auto camera = transforms_.lookupTransform(params_.base_frame, image->header.frame_id, stamp);
-    // One that came after a newer scan is still used, see TrackerParams::max_delay; a later one is not worth
-    // a line.
-    perception_.takeDepth(fromMessage(*image), fromMessage(*camera_info_), isometry(camera.transform),
-                          {*base, *map}, stamp.toSec());
+    // One that came after a newer scan is still used, see TrackerParams::max_delay.
+    if (!perception_.takeDepth(fromMessage(*image), fromMessage(*camera_info_), isometry(camera.transform),
+                               {*base, *map}, stamp.toSec())) {
+      ROS_WARN_STREAM_THROTTLE(
+          kWarningPeriod, topic << ": stamp " << stamp << " is long before that of the last scan; left out");
+    }
   } catch (const DepthInputError& error) {
     ROS_ERROR_STREAM_THROTTLE(kWarningPeriod, topic << ": " << error.what() << "; left out");
   } catch (const tf2::TransformException& error) {
@@ -237,7 +278,8 @@ void PeopleTrackerNode::predictAlone() {
   ROS_WARN_STREAM_THROTTLE(kWarningPeriod, scan_subscriber_.getTopic()
                                                << ": no usable scan for " << (last_now_ - last_scan_).toSec()
                                                << " s; people are only predicted");
-  const auto map = localization(last_now_);
+  // However old: people who are only predicted are soon forgotten, and until then must not be left standing.
+  const auto map = planar(params_.map_frame, params_.odom_frame, ros::Time());
   if (!map || !due(last_now_, params_.rate, next_publication_)) return;
   perception_.advance(last_now_.toSec());
   publish(last_now_, *map);

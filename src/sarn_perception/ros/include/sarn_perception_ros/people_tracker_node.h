@@ -20,8 +20,8 @@
 namespace sarn_perception {
 
 /// scan, and depth image where there is one, with map and tf -> people. People go on by prediction when the
-/// sensors fall silent, and expire; without a map or localisation nothing is published, as walls cannot be
-/// told from people then.
+/// sensors fall silent or the robot is lost, and expire; without a map or localisation no scan is used, as
+/// walls cannot be told from people then.
 class PeopleTrackerNode {
  public:
   /// Throws sarn::ParameterError.
@@ -36,6 +36,8 @@ class PeopleTrackerNode {
   /// Whether a stamp can be believed; one line says why not.
   [[nodiscard]] bool usable(const std_msgs::Header& header, const std::string& topic) const;
   [[nodiscard]] bool ready(const std::string& topic) const;
+  /// A line about a scan that is used, but is not as the others before or shows nothing.
+  void remark(const sensor_msgs::LaserScan& scan);
   void watchClock();
   [[nodiscard]] std::optional<sarn::Pose2D> planar(const std::string& target, const std::string& source,
                                                    const ros::Time& stamp) const;
@@ -51,7 +53,10 @@ class PeopleTrackerNode {
   tf2_ros::MessageFilter<sensor_msgs::LaserScan> scans_;  // that wait for their transform
   tf2_ros::MessageFilter<sensor_msgs::Image> images_;
   sensor_msgs::CameraInfoConstPtr camera_info_;
-  ros::Time last_now_, last_scan_, next_publication_, next_body_;
+  std::optional<std::size_t> beam_count_;  // of the last scan
+  std::optional<std::string> scan_frame_;
+  std::optional<double> map_resolution_;  // [m]
+  ros::Time last_now_, last_scan_, last_image_, next_publication_, next_body_;
   ros::Publisher people_publisher_, tracked_publisher_, marker_publisher_;
   sarn::LockstepAcknowledger lockstep_;
   ros::Subscriber map_subscriber_, scan_subscriber_, image_subscriber_, info_subscriber_;
