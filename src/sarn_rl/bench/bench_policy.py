@@ -82,7 +82,8 @@ def main() -> None:
         state, policy = crowd(people), checkpoint.policy()
         figures[f"policy.decision_ms.{people}_humans"] = 1e3 * median_seconds(lambda: policy.act(state), 200)  # noqa: B023
     params = LearningParams()
-    network = make_network(NetworkParams(), len(checkpoint.contract.robot_features), 0.9)
+    contract = checkpoint.contract
+    network = make_network(NetworkParams(), len(contract.robot_features), contract.undisturbed())
     learner, memory, random = Learner(network, params), filled_memory(params), np.random.default_rng(0)
     seconds = median_seconds(lambda: learner.update(memory, 0.5, random), 200)
     figures["train.gradient_steps_per_s"] = 1.0 / seconds

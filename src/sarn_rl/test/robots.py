@@ -35,6 +35,6 @@ def random_checkpoint(
         **contract,
     )
     torch.manual_seed(4)
-    network = make_network(agreed.network, len(agreed.robot_features), agreed.gamma)
+    network = make_network(agreed.network, len(agreed.robot_features), agreed.undisturbed())
     save_checkpoint(path, Checkpoint(network, agreed, {"seed": 4}))
     return path

@@ -10,6 +10,7 @@ import torch
 
 from sarn_rl import checkpoint as module
 from sarn_rl.checkpoint import Checkpoint, CheckpointError, golden_states, load_checkpoint, save_checkpoint
+from sarn_rl.cli.main import main
 from sarn_rl.contract import Contract
 from sarn_rl.networks.factory import make_network
 from sarn_rl.networks.params import NetworkParams
@@ -18,7 +19,7 @@ from sarn_rl.networks.params import NetworkParams
 def saved(path: Path, kind: str = "sarl") -> Path:
     torch.manual_seed(4)
     contract = Contract(network=NetworkParams(kind))
-    network = make_network(contract.network, 5, contract.gamma)
+    network = make_network(contract.network, 5, contract.undisturbed())
     save_checkpoint(path, Checkpoint(network, contract, {"seed": 4, "commit": "abc", "episodes": 0}))
     return path
 
@@ -48,7 +49,8 @@ def test_comes_back_as_it_was(tmp_path: Path, kind: str) -> None:
     path = saved(tmp_path / "net.pt", kind)
     loaded = load_checkpoint(path, Contract(network=NetworkParams(kind)))
     torch.manual_seed(4)
-    original = Checkpoint(make_network(loaded.contract.network, 5, 0.9), loaded.contract)
+    network = make_network(loaded.contract.network, 5, loaded.contract.undisturbed())
+    original = Checkpoint(network, loaded.contract)
     states = golden_states(loaded.contract)
     assert (loaded.policy().action_values(states)[1] == original.policy().action_values(states)[1]).all()
     assert loaded.origin["seed"] == 4
@@ -110,6 +112,30 @@ def test_changed_weights_fail_the_golden_vectors(file: Path) -> None:
     assert "golden values differ" in one_line(altered(file, weights=weights))
     weights["value.0.weight"] = weights["value.0.weight"] * float("nan")
     assert "not finite" in one_line(altered(file, weights=weights))
+
+
+def test_older_value_among_nobody_is_renewed_and_nothing_else(file: Path) -> None:
+    before = torch.load(file, weights_only=True)
+    golden = before["golden_values"].clone()
+    golden[0] = 0.5
+    altered(file, golden_values=golden)
+    assert "`python -m sarn_rl renew" in one_line(file)
+    assert main(["renew", str(file)]) == 0
+    after = torch.load(file, weights_only=True)
+    assert torch.equal(after["golden_values"], before["golden_values"])
+    assert all(torch.equal(after["weights"][key], value) for key, value in before["weights"].items())
+    assert after["contract"] == before["contract"]
+    assert set(after["origin"]) - set(before["origin"]) == {"golden_values_renewed_by"}
+
+
+def test_older_values_where_somebody_is_are_not_renewed(file: Path, capsys: pytest.CaptureFixture) -> None:
+    golden = torch.load(file, weights_only=True)["golden_values"]
+    golden[3, 2] += 0.01
+    whole = altered(file, golden_values=golden).read_bytes()
+    assert "renew" not in one_line(file)
+    assert main(["renew", str(file)]) == 1
+    assert "golden values differ" in capsys.readouterr().err
+    assert file.read_bytes() == whole
 
 
 def test_failing_write_keeps_the_old_file(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,7 +29,8 @@ def checkpoint(tmp_path: Path) -> Path:
     torch.manual_seed(4)
     path = tmp_path / "sarl.pt"
     contract = Contract()
-    save_checkpoint(path, Checkpoint(make_network(contract.network, 5, 0.9), contract, {"seed": 4}))
+    network = make_network(contract.network, 5, contract.undisturbed())
+    save_checkpoint(path, Checkpoint(network, contract, {"seed": 4}))
     return path
 
 
@@ -72,7 +73,8 @@ def save_untrained(path: Path, kind: str, seed: int) -> None:
     torch.manual_seed(seed)
     contract = Contract(network=NetworkParams(kind))
     origin = {"seed": seed, "configuration": {"environment": to_dict(EnvironmentParams())}}
-    save_checkpoint(path, Checkpoint(make_network(contract.network, 5, 0.9), contract, origin))
+    network = make_network(contract.network, 5, contract.undisturbed())
+    save_checkpoint(path, Checkpoint(network, contract, origin))
 
 
 def test_table_has_the_papers_figures_and_means_over_seeds(

@@ -12,6 +12,7 @@ from sarn_rl.reward import RewardParams
 from sarn_rl.training.foresight import Foresight, Grid, Motions
 from sarn_rl.training.params import TrainingParams
 from sarn_rl.training.teacher import Teacher, make_motions
+from sarn_rl.undisturbed import Undisturbed
 
 # One step is one cell: nothing is lost between cells.
 STEPS = np.array([[0.0, 0.0], [0.25, 0.0], [-0.25, 0.0], [0.0, 0.25], [0.0, -0.25]])
@@ -21,7 +22,8 @@ DISCOUNT = 0.97
 
 
 def foresight(reward: RewardParams) -> Foresight:
-    return Foresight(GRID, ON_GRID, np.array([0.0, 1.5]), 0.2, DISCOUNT, 0.9, reward, 0.25)
+    goal = np.array([0.0, 1.5])
+    return Foresight(GRID, ON_GRID, goal, 0.2, 1.0, DISCOUNT, Undisturbed(0.9), reward, 0.25)
 
 
 def at(values: np.ndarray, x: float, y: float) -> float:
@@ -86,7 +88,6 @@ def test_who_faces_away_from_the_goal_is_worth_less() -> None:
         TrainingParams,
         {
             "actions": {"kinematics": "unicycle", "headings": 5},
-            "environment": {"cases": {"people": 0}},
             "teacher": {"cases": 1, "people": [0], "horizon": 4.0, "lesson_time": 1.0, "cell": 0.5},
         },
         "test",

@@ -5,11 +5,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from sarn_rl.actions import propagate
 from sarn_rl.checkpoint import load_checkpoint
 from sarn_rl.cli.policy_options import checkpoint_world
 from sarn_rl.evaluation.episodes import run_cases
+from sarn_rl.joint_state import GOAL_X, PREFERRED_SPEED, PX, PY, RADIUS, THETA, JointState
 
 MODELS = sorted((Path(__file__).resolve().parents[1] / "models").glob("*.pt"))
 CARD = Path(__file__).resolve().parents[1] / "models" / "README.md"
@@ -25,6 +28,32 @@ def test_model_is_small_and_on_the_card(path: Path) -> None:
     assert path.stat().st_size < 2_000_000
     assert {"configuration", "commit", "seed", "episodes", "updates"} <= set(checkpoint.origin)
     assert path.stem in CARD.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda path: path.name)
+def test_model_arrives_where_nobody_is(path: Path) -> None:
+    """From all sides and distances, facing anywhere: hardly later than turning first, then straight on."""
+    checkpoint = load_checkpoint(path)
+    contract, policy = checkpoint.contract, checkpoint.policy()
+    count = 12
+    robots = np.zeros((count, 9))
+    angle, distance = np.arange(count) * 0.7, np.linspace(0.5, 12.0, count)
+    robots[:, PX], robots[:, PY] = distance * np.cos(angle), distance * np.sin(angle)
+    robots[:, RADIUS], robots[:, PREFERRED_SPEED] = contract.robot_radius, contract.preferred_speed
+    robots[:, THETA] = np.arange(count) * 1.9
+    robots[:, GOAL_X] = 0.3
+    way = np.hypot(robots[:, PX] - 0.3, robots[:, PY]) / contract.preferred_speed
+    turn = np.pi / contract.undisturbed().turn_rate
+    steps = np.ceil((way + turn + 2.0) / contract.time_step).astype(int)
+    absent = np.zeros((count, 1, 5)), np.zeros((count, 1), dtype=bool)
+    arrived = np.zeros(count, dtype=bool)
+    for step in range(steps.max()):
+        robots = propagate(
+            robots, policy.act(JointState(robots, *absent)), contract.time_step, contract.actions
+        )
+        near = np.hypot(robots[:, PX] - 0.3, robots[:, PY]) < contract.robot_radius
+        arrived |= near & (step < steps)
+    assert arrived.all()
 
 
 @pytest.mark.parametrize("path", MODELS, ids=lambda path: path.name)

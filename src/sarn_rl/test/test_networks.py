@@ -17,6 +17,7 @@ from sarn_rl.networks.packed import can_pack, packed
 from sarn_rl.networks.params import NetworkParams
 from sarn_rl.observation import Observation, encode
 from sarn_rl.policies.value_policy import network_values
+from sarn_rl.undisturbed import Undisturbed
 
 ALL = [
     NetworkParams("sarl"),
@@ -25,12 +26,13 @@ ALL = [
     NetworkParams("lstm_rl"),
     NetworkParams("sarl", mirror_mean=True),
 ]
+UNDISTURBED = Undisturbed(0.9, success=1.5, turn_rate=2.0)
 Weights = Dict[str, np.ndarray]
 
 
 def network(params: NetworkParams, robot_size: int = 6) -> ValueNetwork:
     torch.manual_seed(11)
-    return make_network(params, robot_size, 0.9).eval()
+    return make_network(params, robot_size, UNDISTURBED).eval()
 
 
 def weights(net: ValueNetwork) -> Weights:
@@ -48,8 +50,6 @@ def layers(w: Weights, name: str, x: np.ndarray, last_relu: bool = False) -> np.
 
 
 def sarl_value(w: Weights, s: np.ndarray, people: np.ndarray, maps: np.ndarray) -> float:
-    if len(people) == 0:
-        return float(layers(w, "value", np.concatenate([s, np.zeros(50)]))[0])
     e = [layers(w, "embedding", np.concatenate([s, p, m]), True) for p, m in zip(people, maps)]  # Eq. 2
     h = [layers(w, "interaction", x) for x in e]  # Eq. 3
     mean = sum(e) / len(e)
@@ -86,6 +86,8 @@ def lstm_value(w: Weights, s: np.ndarray, people: np.ndarray) -> float:
 
 
 def expected(params: NetworkParams, w: Weights, s: np.ndarray, people: np.ndarray) -> float:
+    if len(people) == 0:
+        return 1.5 * 0.9 ** (max(0.0, s[0] - s[4]) + s[1] * abs(s[5]) / 2.0)
     if params.mirror_mean:
         plain = dataclasses.replace(params, mirror_mean=False)
         image = expected(plain, w, s * [1, 1, 1, -1, 1, -1], people * [1, -1, 1, -1, 1, 1, 1])
@@ -95,7 +97,7 @@ def expected(params: NetworkParams, w: Weights, s: np.ndarray, people: np.ndarra
         return sarl_value(w, s, people, np.array(maps))
     if params.kind == "cadrl":
         pairs = [layers(w, "value", np.concatenate([s, person]))[0] for person in people]
-        return float(min(pairs)) if pairs else float(0.9 ** max(0.0, s[0] - s[4]))
+        return float(min(pairs))
     return lstm_value(w, s, people)
 
 
@@ -137,6 +139,24 @@ def test_empty_crowd_equals_no_rows_at_all(params: NetworkParams, crowd: JointSt
 
 
 @pytest.mark.parametrize("params", ALL, ids=str)
+def test_where_somebody_is_the_value_is_the_learned_one_to_the_bit(
+    params: NetworkParams, crowd: JointState
+) -> None:
+    net, seen = network(params), observation(crowd)
+    inner = net.inner if params.mirror_mean else net
+    somebody = seen.present.any(axis=1)
+    assert not somebody.all()
+    arguments = [torch.from_numpy(np.array(array)) for array in seen]
+    with torch.no_grad():
+        values, learned = inner(*arguments).numpy(), inner.among(*arguments).numpy()  # type: ignore[operator]
+        np.testing.assert_array_equal(values[somebody], learned[somebody])
+        assert (values[~somebody] != learned[~somebody]).all()
+        everybody = [arguments[0], arguments[1], torch.ones_like(arguments[2])]
+        learned = inner.among(*everybody).numpy()  # type: ignore[operator]
+        np.testing.assert_array_equal(inner(*everybody).numpy(), learned)
+
+
+@pytest.mark.parametrize("params", ALL, ids=str)
 def test_gradients_of_masked_batches_are_finite(params: NetworkParams, crowd: JointState) -> None:
     net, seen = network(params), observation(crowd)
     net(*(torch.from_numpy(np.array(array)) for array in seen)).sum().backward()
@@ -164,7 +184,7 @@ def test_unknown_or_contradictory_parameters_are_named() -> None:
     assert "kind" in NetworkParams("gcn").problems()[0]
     assert "map_cells" in NetworkParams("cadrl", map_cells=4).problems()[0]
     with pytest.raises(ValueError, match="gcn"):
-        make_network(NetworkParams("gcn"), 6, 0.9)
+        make_network(NetworkParams("gcn"), 6, UNDISTURBED)
 
 
 @pytest.mark.skipif(not can_pack(), reason="this torch has no oneDNN")

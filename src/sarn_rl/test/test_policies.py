@@ -27,7 +27,8 @@ def policy(
     torch.manual_seed(2)
     actions = ActionParams(kinematics=kinematics, headings=16 if kinematics is Kinematics.HOLONOMIC else 7)
     contract = Contract(actions=actions, robot_features=robot_features(kinematics))
-    network = make_network(NetworkParams(kind, mirror_mean=mirror_mean), len(contract.robot_features), 0.9)
+    params = NetworkParams(kind, mirror_mean=mirror_mean)
+    network = make_network(params, len(contract.robot_features), contract.undisturbed())
     return ValuePolicy(network.eval(), contract.make_lookahead())
 
 

@@ -27,6 +27,7 @@ from sarn_rl.training.params import (
     TrainingParams,
 )
 from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, STATE_FILE, Trainer, selection_score
+from sarn_rl.undisturbed import Undisturbed
 
 pytestmark = pytest.mark.usefixtures("few_validation_cases")
 
@@ -88,7 +89,8 @@ def test_target_network_is_the_running_mean_of_the_learned_one() -> None:
     from sarn_rl.networks.factory import make_network
 
     torch.manual_seed(0)
-    learner = Learner(make_network(NetworkParams("cadrl"), 5, 0.9), LearningParams(target_rate=0.25))
+    network = make_network(NetworkParams("cadrl"), 5, Undisturbed(0.9))
+    learner = Learner(network, LearningParams(target_rate=0.25))
     before = [value.clone() for value in learner.target.parameters()]
     with torch.no_grad():
         for value in learner.network.parameters():
@@ -121,7 +123,8 @@ def test_rehearsal_keeps_what_the_memory_does_not_hold() -> None:
     for count in (0, 16):
         torch.manual_seed(0)
         random = np.random.default_rng(0)
-        learner = Learner(make_network(NetworkParams("sarl"), 5, 0.9), LearningParams(batch_size=16))
+        network = make_network(NetworkParams("sarl"), 5, Undisturbed(0.9))
+        learner = Learner(network, LearningParams(batch_size=16))
         memory = ReplayMemory(ReplayParams(capacity=32), transitions)
         memory.add(transitions)
         for _ in range(80):
@@ -139,7 +142,7 @@ def test_average_follows_more_slowly_than_the_target_and_is_what_is_kept(tmp_pat
 
     torch.manual_seed(0)
     learning = LearningParams(target_rate=0.5, average_rate=0.25)
-    learner = Learner(make_network(NetworkParams("cadrl"), 5, 0.9), learning)
+    learner = Learner(make_network(NetworkParams("cadrl"), 5, Undisturbed(0.9)), learning)
     before = [value.clone() for value in learner.average.parameters()]
     with torch.no_grad():
         for value in learner.network.parameters():
@@ -156,7 +159,7 @@ def test_average_follows_more_slowly_than_the_target_and_is_what_is_kept(tmp_pat
 def test_mirror_image_is_left_out_while_learning_if_asked() -> None:
     from sarn_rl.networks.factory import make_network
 
-    network = make_network(NetworkParams("cadrl", mirror_mean=True), 5, 0.9)
+    network = make_network(NetworkParams("cadrl", mirror_mean=True), 5, Undisturbed(0.9))
     for asked in (True, False):
         learner = Learner(network, LearningParams(mirror_while_learning=asked))
         assert (learner.acting is learner.target) == asked

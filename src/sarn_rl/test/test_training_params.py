@@ -35,6 +35,7 @@ def test_shipped_configuration_has_every_key_and_no_problem(path: Path) -> None:
         ("learning: {episodes: 3, worlds: 0}", "learning.worlds: 0 is not > 0"),
         ("learning: {episodes: many}", "learning.episodes: expected int, got 'many'"),
         ("environment: {cases: {people: -1}}", "environment.cases.people: -1 is not in"),
+        ("environment: {cases: {people: 0}}", "environment.cases.people: 0, but the value among nobody is"),
         ("actions: {kinematics: flying}", "actions.kinematics: 'flying' is none of holonomic"),
         ("gamma: .nan", "gamma: expected float"),
         ("gamma: 2.0", "gamma: 2.0 is not in (0, 1)"),

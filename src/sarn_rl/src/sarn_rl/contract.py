@@ -11,6 +11,7 @@ from sarn_rl.lookahead import Lookahead
 from sarn_rl.networks.params import NetworkParams
 from sarn_rl.observation import PERSON_FEATURES, SELF_FEATURES, SELF_FEATURES_WITH_THETA
 from sarn_rl.reward import RewardParams
+from sarn_rl.undisturbed import Undisturbed
 
 VERSION = 1
 
@@ -69,6 +70,12 @@ class Contract:
 
     def make_lookahead(self) -> Lookahead:
         return Lookahead(self.actions, self.reward, self.gamma, self.time_step)
+
+    def undisturbed(self) -> Undisturbed:
+        """The value where nobody is."""
+        turns = self.actions.kinematics is not Kinematics.HOLONOMIC
+        turn_rate = self.actions.max_turn / self.time_step if turns else float("inf")
+        return Undisturbed(self.gamma, self.reward.success, turn_rate)
 
 
 def robot_features(kinematics: Kinematics) -> Tuple[str, ...]:

@@ -22,7 +22,7 @@ EXAMPLES = """examples:
 
 
 def make_parser() -> argparse.ArgumentParser:
-    from sarn_rl.cli import check_bag, curves, evaluate, export, scenario, sides, table, train, watch
+    from sarn_rl.cli import check_bag, curves, evaluate, export, renew, scenario, sides, table, train, watch
 
     parser = argparse.ArgumentParser(
         prog="python -m sarn_rl",
@@ -31,7 +31,7 @@ def make_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for module in (train, evaluate, table, curves, watch, export, check_bag, scenario, sides):
+    for module in (train, evaluate, table, curves, watch, export, check_bag, scenario, sides, renew):
         module.add_parser(commands)
     return parser
 

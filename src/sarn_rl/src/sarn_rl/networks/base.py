@@ -9,9 +9,13 @@ from typing import Optional, Sequence
 import torch
 from torch import nn
 
-from sarn_rl.observation import PERSON_FEATURES
+from sarn_rl.observation import PERSON_FEATURES, SELF_FEATURES_WITH_THETA
+from sarn_rl.undisturbed import Undisturbed
 
 PERSON_SIZE = len(PERSON_FEATURES)
+GOAL_DISTANCE, PREFERRED_SPEED, RADIUS, THETA = (
+    SELF_FEATURES_WITH_THETA.index(name) for name in ("goal_distance", "preferred_speed", "radius", "theta")
+)
 
 
 class ValueNetwork(nn.Module):
@@ -25,6 +29,39 @@ class ValueNetwork(nn.Module):
 
     def forward(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
         raise NotImplementedError
+
+
+class CrowdNetwork(ValueNetwork):
+    """Learned where somebody is, known where nobody is (see Undisturbed): the same for all kinds.
+
+    Args:
+        robot_size: S.
+        undisturbed: the value without people.
+    """
+
+    def __init__(self, robot_size: int, undisturbed: Undisturbed) -> None:
+        super().__init__()
+        self.robot_size = robot_size
+        self._undisturbed = undisturbed
+
+    def forward(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
+        if people.shape[1] == 0:
+            return self._alone(robot)
+        values = self.among(robot, people, present)
+        if bool(present.all()):
+            return values
+        return torch.where(present.any(dim=-1), values, self._alone(robot))
+
+    def among(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
+        """V (B,) with P > 0; of rows without anybody any finite number."""
+        raise NotImplementedError
+
+    def _alone(self, robot: torch.Tensor) -> torch.Tensor:
+        theta = robot[:, THETA] if self.robot_size > THETA else torch.zeros_like(robot[:, GOAL_DISTANCE])
+        value: torch.Tensor = self._undisturbed.value(
+            robot[:, GOAL_DISTANCE], robot[:, RADIUS], robot[:, PREFERRED_SPEED], theta
+        )
+        return value
 
 
 class Mlp(nn.Sequential):

@@ -5,28 +5,20 @@ from __future__ import annotations
 
 import torch
 
-from sarn_rl.networks.base import PERSON_SIZE, Mlp, ValueNetwork
+from sarn_rl.networks.base import PERSON_SIZE, CrowdNetwork, Mlp
 from sarn_rl.networks.sarl import VALUE
+from sarn_rl.undisturbed import Undisturbed
 
 
-class CadrlNetwork(ValueNetwork):
-    """V = min over people of f(s, s_i). With nobody there: the value of driving straight to the goal.
+class CadrlNetwork(CrowdNetwork):
+    """V = min over people of f(s, s_i)."""
 
-    That value is gamma^(goal distance - radius), the discounted reward of an undisturbed arrival.
-    """
-
-    def __init__(self, robot_size: int, gamma: float) -> None:
-        super().__init__()
-        self.robot_size = robot_size
-        self._gamma = gamma
+    def __init__(self, robot_size: int, undisturbed: Undisturbed) -> None:
+        super().__init__(robot_size, undisturbed)
         self.value = Mlp((robot_size + PERSON_SIZE, *VALUE, 1))
 
-    def forward(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
-        free = torch.pow(self._gamma, (robot[:, 0] - robot[:, 4]).clamp(min=0.0))
-        if people.shape[1] == 0:
-            return free
+    def among(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
         values = self.value.split(robot, people).squeeze(-1)
         if bool(present.all()):
             return values.min(dim=-1).values
-        worst = values.masked_fill(~present, torch.finfo(values.dtype).max).min(dim=-1).values
-        return torch.where(present.any(dim=-1), worst, free)
+        return values.masked_fill(~present, torch.finfo(values.dtype).max).min(dim=-1).values

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import torch
 
-from sarn_rl.networks.base import PERSON_SIZE, Mlp, ValueNetwork
+from sarn_rl.networks.base import PERSON_SIZE, CrowdNetwork, Mlp
 from sarn_rl.networks.neighbourhood import MAP_CHANNELS, neighbourhood_maps
+from sarn_rl.undisturbed import Undisturbed
 
 EMBEDDING = (150, 100)  # hidden units of Phi_e
 INTERACTION = (100, 50)  # of Psi_h
@@ -14,16 +15,15 @@ ATTENTION = (100, 100)  # of Psi_alpha, a score follows
 VALUE = (150, 100, 100)  # of f_V, the value follows
 
 
-class SarlNetwork(ValueNetwork):
+class SarlNetwork(CrowdNetwork):
     """e_i = Phi_e(s, s_i, M_i), h_i = Psi_h(e_i), alpha_i = Psi_alpha(e_i, mean e),
     V = f_V(s, sum softmax(alpha) h).
-
-    With nobody there the crowd's representation is zero.
     """
 
-    def __init__(self, robot_size: int, map_cells: int = 0, map_cell_size: float = 1.0) -> None:
-        super().__init__()
-        self.robot_size = robot_size
+    def __init__(
+        self, robot_size: int, undisturbed: Undisturbed, map_cells: int = 0, map_cell_size: float = 1.0
+    ) -> None:
+        super().__init__(robot_size, undisturbed)
         self._map_cells, self._map_cell_size = map_cells, map_cell_size
         person_size = PERSON_SIZE + MAP_CHANNELS * map_cells * map_cells
         self.embedding = Mlp((robot_size + person_size, *EMBEDDING), last_relu=True)
@@ -31,13 +31,11 @@ class SarlNetwork(ValueNetwork):
         self.attention = Mlp((2 * EMBEDDING[-1], *ATTENTION, 1))
         self.value = Mlp((robot_size + INTERACTION[-1], *VALUE, 1))
 
-    def forward(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
+    def among(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
         return self.value(torch.cat([robot, self.crowd(robot, people, present)[0]], dim=-1)).squeeze(-1)
 
     def crowd(self, robot: torch.Tensor, people: torch.Tensor, present: torch.Tensor) -> tuple:
         """(representation (B, 50), attention weights (B, P)): equations 1 to 5."""
-        if people.shape[1] == 0:
-            return robot.new_zeros(robot.shape[0], INTERACTION[-1]), robot.new_zeros(robot.shape[0], 0)
         if self._map_cells:
             maps = neighbourhood_maps(people, present, self._map_cells, self._map_cell_size)
             people = torch.cat([people, maps], dim=-1)

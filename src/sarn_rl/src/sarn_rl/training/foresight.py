@@ -16,7 +16,9 @@ import numpy as np
 import torch
 
 from sarn_rl.norms import GOAL_DISTANCE, norm_broken_by
+from sarn_rl.observation import wrap_angle
 from sarn_rl.reward import RewardParams
+from sarn_rl.undisturbed import Undisturbed
 
 
 class Motions(NamedTuple):
@@ -76,8 +78,9 @@ class Foresight:
         motions: of the robot.
         goal: (2,) [m].
         robot_radius: [m].
+        speed: [m/s] that the robot prefers.
         discount: of one step.
-        free_discount: of one metre, of the value beyond the last time.
+        undisturbed: the value beyond the last time.
         reward: amounts.
         time_step: [s].
     """
@@ -88,8 +91,9 @@ class Foresight:
         motions: Motions,
         goal: np.ndarray,
         robot_radius: float,
+        speed: float,
         discount: float,
-        free_discount: float,
+        undisturbed: Undisturbed,
         reward: RewardParams,
         time_step: float,
     ) -> None:
@@ -102,10 +106,11 @@ class Foresight:
         self._x, self._y = torch.from_numpy(x.astype(np.float32)), torch.from_numpy(y.astype(np.float32))
         distance = np.hypot(x - goal[0], y - goal[1])
         self._reached = torch.from_numpy(distance < robot_radius)
-        self._free = torch.from_numpy(
-            np.power(free_discount, np.maximum(0.0, distance - robot_radius)).astype(np.float32)
-        )
         self._headings = torch.from_numpy(motions.headings)
+        headings = np.arange(len(motions.headings)) * (2.0 * np.pi / len(motions.headings))
+        theta = wrap_angle(headings[:, None, None] - np.arctan2(goal[1] - y, goal[0] - x))
+        free = undisturbed.value(distance, robot_radius, speed, theta)
+        self._free = torch.from_numpy(free.astype(np.float32))
         self._offsets, self._time_step = motions.offsets, time_step
         self._norm_cost = reward.norm_cost * time_step
         self._far = distance > GOAL_DISTANCE

@@ -250,6 +250,8 @@ class TrainingParams:
             found.append(f"seed: {self.seed} is not in 0..2^32-1")
         if not 0.0 < self.gamma < 1.0:
             found.append(f"gamma: {self.gamma} is not in (0, 1)")
+        if max((self.environment.cases.people, *self.learning.people)) == 0:
+            found.append("environment.cases.people: 0, but the value among nobody is known; 1 or more")
         return tuple(found)
 
     def contract(self) -> Contract:

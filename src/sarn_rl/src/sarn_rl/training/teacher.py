@@ -86,8 +86,9 @@ class Teacher:
             self._motions,
             self._goal,
             cases.robot_radius,
+            cases.robot_speed,
             float(discounted(params.gamma, self._time_step, speed)),
-            params.gamma,
+            replace(params.contract().undisturbed(), success=self._teacher.reward.success),
             self._teacher.reward,
             self._time_step,
         )

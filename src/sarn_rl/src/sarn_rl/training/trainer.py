@@ -83,7 +83,9 @@ class Trainer:
         self._lookahead = self._contract.make_lookahead()
         torch.manual_seed(params.seed)
         self._random = np.random.default_rng(params.seed)
-        self._network = make_network(params.network, len(self._contract.robot_features), params.gamma)
+        self._network = make_network(
+            params.network, len(self._contract.robot_features), self._contract.undisturbed()
+        )
         self._learner = Learner(self._network, params.learning)
         self._episodes = 0
         self._next_case = params.teacher.cases or params.imitation.episodes
