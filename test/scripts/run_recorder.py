@@ -35,7 +35,7 @@ class RunRecorder:
         self._robot: List[List[float]] = []
         self._people: Dict[str, List[List[float]]] = {}
         self._contacts: List[str] = []
-        self._goals = _goals(rospy.get_param("/kobuki_sim/scenario"))
+        self._goals = scenario_goals(rospy.get_param("/kobuki_sim/scenario"))
         rospy.Subscriber("/ground_truth/odom", Odometry, self._on_odom)
         rospy.Subscriber("/ground_truth/people", People, self._on_people)
         rospy.Subscriber("/ground_truth/contacts", Contact, self._on_contact)
@@ -93,7 +93,7 @@ class RunRecorder:
             return RunRecord(np.array(self._robot), people, list(self._contacts), succeeded, outcome)
 
 
-def _goals(scenario_file: str) -> List[List[float]]:
+def scenario_goals(scenario_file: str) -> List[List[float]]:
     from sarn_evaluation.scenario import load_scenario
 
     return [list(goal) for goal in load_scenario(scenario_file).goals]
