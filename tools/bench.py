@@ -37,6 +37,8 @@ GOALS: Dict[str, Tuple[str, float]] = {
     "planner.ancestor.reached.alone": (">", 100.0),
     "planner.ancestor.reached.people": (">", 100.0),
     "planner.ancestor.cost_over_optimum_pct.median": ("<", 0.5),
+    "planner.ancestor.cost_over_ancestor_pct.max.alone": ("<", 1.0),
+    "planner.ancestor.cost_over_ancestor_pct.max.people": ("<", 1.0),
     "planner.default.search_ms.median.alone": ("<", 5.0),
     "planner.default.search_ms.median.people": ("<", 20.0),
     "planner.default.search_ms.p99.alone": ("<", 150.0),
@@ -126,6 +128,8 @@ def _planner_bench(name: str, options: List[str], params: str) -> Figures:
         "duration_s.mean": "duration_s_mean",
         "person_m.median": "person_m_median",
         "cost_over_optimum_pct.median": "over_optimum_pct_median",
+        "cost_over_ancestor_pct.median": "over_ancestor_pct_median",
+        "cost_over_ancestor_pct.max": "over_ancestor_pct_max",
     }
     figures: Figures = {}
     for line in _json_lines(command):
@@ -146,7 +150,7 @@ def planner() -> Figures:
         tasks = [str(shared / "maps/turtlebot_at_home_map.yaml")]
         tasks += ["--pairs", str(shared / "planning_tasks/pairs_turtlebot_at_home_map_100.csv")]
         tasks += ["--people", str(shared / "planning_tasks/people_turtlebot_at_home_map_100.csv")]
-    ancestor = ["--layers", "15", "--optimum", "20"]
+    ancestor = ["--layers", "15", "--optimum", "20", "--ancestor", "100"]
     figures.update(_planner_bench("planner.ancestor", tasks + ancestor, "ancestor.yaml"))
     figures.update(_planner_bench("planner.default", tasks, "lattice_planner.yaml"))
     for name in ("office", "hall"):

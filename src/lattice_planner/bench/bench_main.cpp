@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 
+#include "ancestor_search.h"
 #include "bench_world.h"
 #include "lattice_planner/lattice_planner.h"
 #include "textbook.h"
@@ -26,10 +27,10 @@ using lattice_planner::PlanStatus;
 constexpr const char* kUsage =
     "usage: lattice_planner_bench MAP.yaml [--pairs FILE.csv] [--people FILE.csv] [--params FILE.yaml]\n"
     "         [--time-limit SECONDS] [--count N] [--seed N] [--name NAME] [--layers N]\n"
-    "         [--optimum N] [--verbose]\n"
-    "--optimum: compare the first N tasks with a textbook A* on the ancestor's lattice (seconds a task; only "
-    "for\n"
-    "config/ancestor.yaml).\n"
+    "         [--optimum N] [--ancestor N] [--verbose]\n"
+    "--optimum: compare the first N tasks with a textbook A* on the ancestor's lattice (seconds a task),\n"
+    "--ancestor: with the published implementation's search (tenths of a second a task); both only for\n"
+    "config/ancestor.yaml.\n"
     "Without --pairs: N seeded tasks of 2 to 8 m on the map's largest free area.\n";
 
 struct Options {
@@ -40,8 +41,9 @@ struct Options {
   std::string name = "default";
   double time_limit = 0.48;  // [s]
   int count = 100;
-  int layers = 20;  // of 0.5 s; the ancestor has 15
-  int optimum = 0;  // tasks to compare with the textbook
+  int layers = 20;   // of 0.5 s; the ancestor has 15
+  int optimum = 0;   // tasks to compare with the textbook
+  int ancestor = 0;  // tasks to compare with the ancestor's search
   unsigned seed = 7;
   bool verbose = false;
 };
@@ -70,6 +72,8 @@ Options parse(int argc, char** argv) {
       options.layers = std::stoi(argv[++i]);
     } else if (key == "--optimum") {
       options.optimum = std::stoi(argv[++i]);
+    } else if (key == "--ancestor") {
+      options.ancestor = std::stoi(argv[++i]);
     } else if (key == "--seed") {
       options.seed = static_cast<unsigned>(std::stoul(argv[++i]));
     } else {
@@ -114,7 +118,8 @@ double mean(const std::vector<double>& values) {
 
 struct Measured {
   std::vector<double> search_ms, cpu_ms, cost, duration, length, person, expansions, bound;
-  std::vector<double> over_optimum;  // [%]
+  std::vector<double> over_optimum, over_ancestor, ancestor_over_optimum;  // [%]
+  std::vector<double> ancestor_cost, ancestor_expansions;
   int reached = 0;
   int timed_out = 0;
 };
@@ -139,6 +144,12 @@ void printSummary(const std::string& name, const Measured& m, std::size_t tasks)
   print("over_optimum_pct_median", quantile(m.over_optimum, 0.5));
   print("over_optimum_pct_p90", quantile(m.over_optimum, 0.9));
   print("over_optimum_pct_max", quantile(m.over_optimum, 1.0));
+  print("over_ancestor_pct_median", quantile(m.over_ancestor, 0.5));
+  print("over_ancestor_pct_max", quantile(m.over_ancestor, 1.0));
+  print("ancestor_cost_median", quantile(m.ancestor_cost, 0.5));
+  print("ancestor_expansions_median", quantile(m.ancestor_expansions, 0.5));
+  print("ancestor_over_optimum_pct_median", quantile(m.ancestor_over_optimum, 0.5));
+  print("ancestor_over_optimum_pct_max", quantile(m.ancestor_over_optimum, 1.0));
   print("bound_median", quantile(m.bound, 0.5));
   print("duration_s_median", quantile(m.duration, 0.5));
   print("duration_s_mean", mean(m.duration));
@@ -156,13 +167,43 @@ void printTask(std::size_t index, const PlanResult& r) {
       r.trajectory.empty() ? 0.0 : r.trajectory.endTime() - r.trajectory.startTime(), r.trajectory.length());
 }
 
+/// What else plans on the ancestor's lattice.
+struct Rivals {
+  explicit Rivals(const lattice_planner::PlannerParams& params) : textbook(params), ancestor(params) {}
+  lattice_planner::bench::Textbook textbook;
+  lattice_planner::bench::AncestorSearch ancestor;
+};
+
+/// One complete plan's cost beside theirs.
+void compare(const Options& options, int task, const lattice_planner::PlanRequest& request,
+             const sarn::TimedCostmapView& view, const PlanResult& ours, Rivals& rivals, Measured& measured) {
+  const auto percent = [](double a, double b) { return 100.0 * (a / b - 1.0); };
+  std::optional<double> optimum;
+  if (task < options.optimum) optimum = rivals.textbook.solve(request, view);
+  if (optimum) measured.over_optimum.push_back(percent(ours.cost, *optimum));
+  if (optimum && options.verbose) std::printf("{\"task\": %d, \"optimum\": %.1f}\n", task, *optimum);
+  if (task >= options.ancestor) return;
+  const auto theirs = rivals.ancestor.solve(request, view);
+  if (!theirs) return;
+  const auto charged = rivals.ancestor.task().costOf(ours.trajectory);  // as the ancestor would charge for it
+  if (!charged) throw std::runtime_error("task " + std::to_string(task) + ": the plan is not the ancestor's");
+  measured.ancestor_cost.push_back(theirs->cost);
+  measured.ancestor_expansions.push_back(static_cast<double>(theirs->expansions));
+  measured.over_ancestor.push_back(percent(*charged, theirs->cost));
+  if (optimum) measured.ancestor_over_optimum.push_back(percent(theirs->cost, *optimum));
+  if (!options.verbose) return;
+  std::printf("{\"task\": %d, \"charged\": %.1f, \"ancestor\": %.1f, \"ancestor_expansions\": %zu, ", task,
+              *charged, theirs->cost, theirs->expansions);
+  std::printf("\"over_ancestor_pct\": %.3f}\n", measured.over_ancestor.back());
+}
+
 void measure(const Options& options, lattice_planner::LatticePlanner& planner,
              const sarn::Grid<std::uint8_t>& static_costs,
              const std::vector<lattice_planner::bench::Task>& tasks, bool people) {
   constexpr double kLayerDuration = 0.5;  // [s]
   constexpr double kRelease = 0.48;       // [s] when the robot starts
   lattice_planner::bench::SocialLayers social(static_costs.geometry, options.layers, kLayerDuration);
-  lattice_planner::bench::Textbook textbook(planner.params());
+  Rivals rivals(planner.params());
   Measured measured;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (people) social.mark(tasks[i].walkers);
@@ -181,11 +222,7 @@ void measure(const Options& options, lattice_planner::LatticePlanner& planner,
     if (r.status != PlanStatus::kComplete) continue;
     ++measured.reached;
     measured.cost.push_back(r.cost);
-    if (static_cast<int>(i) < options.optimum) {
-      const std::optional<double> optimum = textbook.solve(request, view);
-      if (optimum) measured.over_optimum.push_back(100.0 * (r.cost / *optimum - 1.0));
-      if (options.verbose) std::printf("{\"task\": %zu, \"optimum\": %.1f}\n", i, optimum.value_or(0.0));
-    }
+    compare(options, static_cast<int>(i), request, view, r, rivals, measured);
     measured.bound.push_back(r.bound);
     measured.duration.push_back(r.trajectory.endTime() - r.trajectory.startTime());
     measured.length.push_back(r.trajectory.length());

@@ -6,6 +6,7 @@
 #include <array>
 #include <random>
 
+#include "../bench/ancestor_search.h"
 #include "../bench/textbook.h"
 #include "count_allocations.h"
 #include "lattice_planner/distance_field.h"
@@ -45,13 +46,14 @@ World doorway() {
 
 // Faults 1 and 8: the first way that is generated wins, the goal is accepted when it is generated, and costs
 // are counted by samples. On the ancestor's own lattice and cost, searched to the end, nothing is dearer than
-// the textbook's plan.
+// the textbook's plan, nor than the ancestor's.
 TEST(AncestorsFaults, plansOnItsLatticeAreAsCheapAsTheTextbooks) {
   PlannerParams params = ancestor();
   params.improvement_effort = 0.0;
   params.hurry_after = 0;
   LatticePlanner planner(params);
   bench::Textbook textbook(params);
+  bench::AncestorSearch ancestors(params);
   int compared = 0;
   for (const double yaw : {0.0, 2.0, -1.3}) {
     World world = World::room(3.0, 1.2);
@@ -61,10 +63,16 @@ TEST(AncestorsFaults, plansOnItsLatticeAreAsCheapAsTheTextbooks) {
     world.walk(1.6, 2.5, 0.0, -0.6, 0.2);
     const PlanRequest task = request({0.5, 0.6, 0.3}, {2.3, 0.6, yaw});
     const std::optional<double> optimum = textbook.solve(task, world.view());
+    const std::optional<bench::AncestorSearch::Plan> ancestor = ancestors.solve(task, world.view());
     const PlanResult result = planner.plan(task, world.view());
     ASSERT_TRUE(optimum.has_value());
+    ASSERT_TRUE(ancestor.has_value());
     ASSERT_EQ(result.status, PlanStatus::kComplete);
     EXPECT_NEAR(result.cost, *optimum, 0.015 * *optimum) << yaw;  // both merge states of one cell
+    EXPECT_LE(result.cost, 1.005 * ancestor->cost) << yaw;
+    const std::optional<double> charged = ancestors.task().costOf(result.trajectory);
+    ASSERT_TRUE(charged.has_value());
+    EXPECT_NEAR(result.cost, *charged, 1e-3 * *charged) << yaw;  // as the ancestor would charge for it
     ++compared;
   }
   EXPECT_EQ(compared, 3);
