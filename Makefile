@@ -57,7 +57,7 @@ sanitize:  ## Tests of the cores under ASan, UBSan and TSan, and a minute of fuz
 bench:  ## Measure speed; writes build/bench.json
 	@tools/bench
 
-train:  ## Train all policies of the table from nothing (runs/train; SEEDS="1 2 3")
+train:  ## Train all policies of the table from nothing (runs/train; SEEDS=4: another seed)
 	@tools/train
 
 table:  ## Evaluate baselines and shipped checkpoints: the paper's Table I beside ours (build/table.json)

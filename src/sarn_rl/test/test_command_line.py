@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 from __future__ import annotations
 
+import dataclasses
 import json
 import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, Dict
 
 import numpy as np
 import pytest
@@ -15,9 +16,12 @@ from PIL import Image
 
 from sarn_rl.checkpoint import Checkpoint, golden_states, load_checkpoint, save_checkpoint
 from sarn_rl.cli.main import main
+from sarn_rl.cli.table_rows import MORE_SETTINGS, weights_hash
 from sarn_rl.contract import Contract
-from sarn_rl.declared import to_dict
+from sarn_rl.declared import from_dict, to_dict
 from sarn_rl.envs.params import EnvironmentParams
+from sarn_rl.envs.worlds import Worlds
+from sarn_rl.evaluation.summary import as_markdown
 from sarn_rl.networks.factory import make_network
 from sarn_rl.networks.params import NetworkParams
 
@@ -69,12 +73,74 @@ def test_evaluate_says_whether_the_policy_peeked(checkpoint: Path, capsys: pytes
         assert json.loads(capsys.readouterr().out)["lookahead"] == name
 
 
-def save_untrained(path: Path, kind: str, seed: int) -> None:
+def save_untrained(path: Path, kind: str, seed: int, **environment: Any) -> None:
     torch.manual_seed(seed)
-    contract = Contract(network=NetworkParams(kind))
-    origin = {"seed": seed, "configuration": {"environment": to_dict(EnvironmentParams())}}
+    world = from_dict(EnvironmentParams, environment, "world")
+    contract = Contract(
+        network=NetworkParams(kind),
+        time_step=world.time_step,
+        robot_radius=world.cases.robot_radius,
+        preferred_speed=world.cases.robot_speed,
+    )
+    origin = {"seed": seed, "configuration": {"environment": to_dict(world)}}
     network = make_network(contract.network, 5, contract.undisturbed())
     save_checkpoint(path, Checkpoint(network, contract, origin))
+
+
+SLOW = {"cases": {"robot_speed": 0.6, "robot_radius": 0.2, "people": 3}, "time_limit": 33.0}
+
+
+def test_checkpoint_is_driven_in_the_world_of_its_contract(
+    tmp_path: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "slow.pt"
+    save_untrained(path, "cadrl", 1, **SLOW)
+    arguments = ["--policy", "cadrl", "--checkpoint", str(path)]
+    worlds = []
+    original = Worlds.__init__
+
+    def noted(self: Worlds, params: EnvironmentParams, *others: Any) -> None:
+        worlds.append(params)
+        original(self, params, *others)
+
+    monkeypatch.setattr(Worlds, "__init__", noted)
+    assert main(["evaluate", *arguments, "--count", "1"]) == 0
+    assert main(["watch", *arguments, "--out", str(tmp_path / "case.png"), "--time-limit", "1.0"]) == 0
+    assert main(["sides", *arguments, "--count", "1"]) == 0
+    assert worlds[0] == from_dict(EnvironmentParams, SLOW, "world")
+    assert worlds[1] == dataclasses.replace(worlds[0], time_limit=1.0)
+    assert {(world.cases.robot_speed, world.cases.robot_radius) for world in worlds} == {(0.6, 0.2)}
+    assert len(worlds) == 4
+    asked = ["--humans", "2", "--crowd", "mixture", "--visible", "--robot-speed", "0.6"]
+    assert main(["evaluate", *arguments, "--count", "1", *asked]) == 0
+    assert (worlds[4].cases.people, worlds[4].cases.crowd, worlds[4].robot_visible) == (2, "mixture", True)
+    assert main(["evaluate", "--policy", "orca", "--count", "1", "--robot-speed", "0.7"]) == 0
+    assert worlds[5].cases.robot_speed == 0.7 and worlds[5].cases.people == 5
+
+
+@pytest.mark.parametrize("command", [["evaluate"], ["watch", "--out", "x.png"], ["sides"]], ids=" ".join)
+def test_what_contradicts_the_contract_is_refused(
+    tmp_path: Path, command: list, capsys: pytest.CaptureFixture
+) -> None:
+    path = tmp_path / "slow.pt"
+    save_untrained(path, "cadrl", 1, **SLOW)
+    arguments = [*command, "--policy", "cadrl", "--checkpoint", str(path)]
+    for option, value, unlike in (
+        ("--robot-speed", "1.0", "robot_speed: 0.6 is not 1.0"),
+        ("--robot-radius", "0.3", "robot_radius: 0.2 is not 0.3"),
+        ("--time-step", "0.5", "time_step: 0.25 is not 0.5"),
+        ("--kinematics", "turtlebot", "kinematics: 'holonomic' is not 'turtlebot'"),
+    ):
+        assert main([*arguments, option, value]) == 1
+        error = capsys.readouterr().err
+        assert error == f"sarn_rl: {path}: contract differs from what is asked: {unlike}\n"
+    assert main(["evaluate", "--policy", "orca", "--kinematics", "unicycle"]) == 1
+    assert "orca differs from what is asked: kinematics: 'holonomic'" in capsys.readouterr().err
+
+
+def is_more(row: Dict[str, Any]) -> bool:
+    """Of MORE_SETTINGS."""
+    return row["crowd"] != "circle_crossing" or row["visible"] or row["humans"] == 20
 
 
 def test_table_has_the_papers_figures_and_means_over_seeds(
@@ -88,7 +154,11 @@ def test_table_has_the_papers_figures_and_means_over_seeds(
     rows = json.loads(out.read_text())
     assert {"orca", "social_force", "cadrl"} == {row["policy"] for row in rows}
     ours = [row for row in rows if row["policy"] == "cadrl"]
-    crossing = [row for row in ours if row["people_model"] == "orca"]
+    among_orca = [row for row in ours if row["people_model"] == "orca"]
+    more = [(row["crowd"], row["humans"], row["visible"]) for row in among_orca if is_more(row)]
+    assert sorted(more) == sorted(MORE_SETTINGS)
+    assert all(row["discomfort_scaled_by_time_step"] for row in rows)
+    crossing = [row for row in among_orca if not is_more(row)]
     assert [(row["humans"], row["seed"]) for row in crossing] == [
         (size, seed) for size in (5, 10) for seed in (1, 2, "mean")
     ]
@@ -105,7 +175,7 @@ def test_table_has_the_papers_figures_and_means_over_seeds(
     assert json.loads(out.read_text()) == rows
     assert main([*arguments, "--only", "cadrl_seed2", "--no-strangers"]) == 0
     fewer = json.loads(out.read_text())
-    assert sum(row["people_model"] == "orca" and row["policy"] == "cadrl" for row in fewer) == len(crossing)
+    assert sum(row["people_model"] == "orca" and row["policy"] == "cadrl" for row in fewer) == len(among_orca)
     assert sum(row["people_model"] != "orca" for row in fewer) == sum(
         row["people_model"] != "orca" and row.get("model") != "cadrl_seed2.pt" and row["seed"] != "mean"
         for row in rows
@@ -135,16 +205,16 @@ def test_table_goes_on_where_it_was_interrupted(
     measured.clear()
     most[0] = 100
     assert main([*arguments, "--resume"]) == 0
-    assert len(measured) == 2
+    assert len(measured) == 6
     rows = json.loads(out.read_text())
-    assert len(rows) == 9 + 4 + 2
+    assert len(rows) == 9 + 4 + 4 + 2
     save_untrained(tmp_path / "lstm_rl_seed2.pt", "lstm_rl", 3)
     measured.clear()
     assert main([*arguments, "--resume"]) == 0
     assert len(measured) == 2
     measured.clear()
     assert main([*arguments, "--resume", "--only", "lstm_rl_seed2", "--count", "2"]) == 0
-    assert len(measured) == 2 and len(json.loads(out.read_text())) == 9 + 4
+    assert len(measured) == 2 and len(json.loads(out.read_text())) == 9 + 4 + 4
     capsys.readouterr()
     assert main(["table", "--models", str(tmp_path), "--resume"]) == 1
     assert "--resume" in capsys.readouterr().err
@@ -158,11 +228,39 @@ def test_table_says_which_side_sarl_takes(tmp_path: Path, capsys: pytest.Capture
     out = tmp_path / "table.json"
     arguments = ["table", "--models", str(tmp_path), "--count", "1", "--out", str(out), "--only", "sarl_*"]
     assert main([*arguments, "--no-strangers"]) == 0
-    rows = {row["crowd"]: row for row in json.loads(out.read_text())}
-    assert set(rows) == {"circle_crossing", "head_on", "overtaking"}
+    measured = json.loads(out.read_text())
+    assert sum(row["lookahead"] == "peek" for row in measured) == 1
+    rows = {row["crowd"]: row for row in measured}
+    assert set(rows) == {"circle_crossing", "square_crossing", "mixture", "head_on", "overtaking"}
     for kind in ("head_on", "overtaking"):
         shares = [rows[kind][name] for name in ("right_hand", "left_hand", "never_passed", "collision")]
         assert rows[kind]["humans"] == 1 and sum(shares) == 1.0
+
+
+def test_weights_are_the_same_whatever_else_a_file_says(tmp_path: Path) -> None:
+    files = [tmp_path / name for name in ("a.pt", "b.pt", "c.pt", "d.pt")]
+    for path, seed, limit in zip(files, (1, 1, 2, 1), (25.0, 30.0, 25.0, 25.0)):
+        save_untrained(path, "cadrl", seed, time_limit=limit)
+    first, second, third, _ = (weights_hash(load_checkpoint(path)) for path in files)
+    assert first == second != third
+    save_untrained(files[3], "cadrl", 1, cases={"robot_speed": 0.5})
+    assert weights_hash(load_checkpoint(files[3])) != first
+
+
+@pytest.mark.parametrize(
+    "commits, said", [(["a"], "1 row at commit a."), (["a", "a"], "2 rows at commit a.")]
+)
+def test_table_says_where_it_comes_from(commits: list, said: str) -> None:
+    row = {
+        "policy": "orca",
+        "humans": 5,
+        "visible": False,
+        "crowd": "circle_crossing",
+        "people_model": "orca",
+    }
+    row.update(kinematics="holonomic", lookahead="none", seed=-1, cases=1, time_s=None, discomfort=0.0)
+    row.update(success=0.0, collision=0.0, timeout=1.0)
+    assert said in as_markdown([{**row, "commit": commit} for commit in commits]).splitlines()[0]
 
 
 def test_row_without_a_success_is_json(tmp_path: Path, checkpoint: Path) -> None:

@@ -38,7 +38,8 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    chosen, world = chosen_policy(options), chosen_world(options)
+    chosen = chosen_policy(options)
+    world = chosen_world(options, chosen)
     row = evaluated_row(chosen, world, options.cases, options.count, options.peek)
     if options.policy in ("orca", "social_force"):
         row["safety_space"] = options.safety_space
@@ -66,7 +67,7 @@ def described(chosen: Chosen, world: EnvironmentParams, peek: bool) -> Dict[str,
         "people_model": world.people_model,
         "kinematics": chosen.policy.kinematics.value,
         "lookahead": lookahead_name(chosen, peek),
-        "discomfort_scaled_by_time_step": chosen.reward.discomfort_scaled_by_time_step,
+        "discomfort_scaled_by_time_step": BENCHMARK_REWARD.discomfort_scaled_by_time_step,
         "discomfort_dist": BENCHMARK_REWARD.discomfort_dist,
         "seed": chosen.seed,
         "commit": source_commit(),

@@ -15,7 +15,7 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     parser = commands.add_parser("sides", help="say on which side a policy passes and overtakes somebody")
     add_policy_options(parser)
     add_world_options(parser)
-    parser.add_argument("--count", type=int, default=100, help="cases of each kind (100)")
+    parser.add_argument("--count", type=int, default=500, help="cases of each kind (500)")
     parser.add_argument("--json", type=Path, help="write the rows here")
     parser.set_defaults(run=run)
 
@@ -24,7 +24,7 @@ def run(options: argparse.Namespace) -> int:
     if options.count < 1:
         raise ValueError(f"--count: {options.count} is not >= 1")
     chosen = chosen_policy(options)
-    rows = sides(chosen.policy, chosen_world(options), chosen.reward, options.count)
+    rows = sides(chosen.policy, chosen_world(options, chosen), chosen.reward, options.count)
     text = json.dumps([{"policy": chosen.name, "norm": chosen.reward.norm, **row} for row in rows], indent=2)
     print(text)
     if options.json:

@@ -31,7 +31,8 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
 def run(options: argparse.Namespace) -> int:
     if options.out.suffix not in (".gif", ".png"):
         raise ValueError(f"--out: {options.out} ends neither in .gif nor in .png")
-    chosen, world = chosen_policy(options), chosen_world(options)
+    chosen = chosen_policy(options)
+    world = chosen_world(options, chosen)
     prepared(options.out)
     seed = case_seed(options.cases, options.case)
     worlds = Worlds(world, chosen.reward, chosen.policy.kinematics, 1)

@@ -104,7 +104,9 @@ def _origin(rows: Sequence[Row]) -> str:
     for row in rows:
         if row["seed"] != "mean":
             commits[row["commit"]] = commits.get(row["commit"], 0) + 1
-    measured = ", ".join(f"{count} rows at commit {name}" for name, count in commits.items())
+    measured = ", ".join(
+        f"{count} {'row' if count == 1 else 'rows'} at commit {name}" for name, count in commits.items()
+    )
     return (
         f"Made by tools/table: {measured}. Test cases, the robot invisible unless said, people predicted at "
         "constant velocity. Time: of those that arrived. Discomfort: share of the steps nearer than 0.2 m. "
