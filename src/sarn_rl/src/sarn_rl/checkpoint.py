@@ -71,6 +71,11 @@ def golden_states(contract: Contract) -> JointState:
     return JointState(robots, people * present[..., None], present)
 
 
+def _populated(contract: Contract) -> np.ndarray:
+    """(worlds,) bool: the golden states with people."""
+    return np.asarray(golden_states(contract).present.any(axis=1))
+
+
 def golden_values(checkpoint: Checkpoint) -> np.ndarray:
     """(worlds, actions): values of all actions in the golden states, all looked at alike."""
     contract = checkpoint.contract
@@ -121,8 +126,7 @@ def renew_golden_values(path: Path, commit: str) -> None:
     """
     document = _read(path)
     checkpoint = _network_of(path, document)
-    somebody = golden_states(checkpoint.contract).present.any(axis=1)
-    _prove(path, checkpoint, document["golden_values"], somebody)
+    _prove(path, checkpoint, document["golden_values"], _populated(checkpoint.contract))
     origin = {**checkpoint.origin, "golden_values_renewed_by": commit}
     save_checkpoint(path, Checkpoint(checkpoint.network, checkpoint.contract, origin))
 
@@ -143,7 +147,7 @@ def load_checkpoint(path: Path, expected: Optional[Contract] = None) -> Checkpoi
     try:
         _prove(path, checkpoint, golden, np.ones(len(golden), dtype=bool))
     except GoldenError as error:
-        _prove(path, checkpoint, golden, golden_states(checkpoint.contract).present.any(axis=1))
+        _prove(path, checkpoint, golden, _populated(checkpoint.contract))
         raise CheckpointError(
             f"{error}, but only where nobody is, which is a formula by now: `python -m sarn_rl renew {path}`"
         ) from error
