@@ -212,8 +212,18 @@ def stack() -> Figures:
     return figures
 
 
+def _people_latency(master: str) -> subprocess.Popen[str]:
+    """Starts to watch the run of a ROS master."""
+    command = [sys.executable, str(ROOT / "tools" / "people_latency.py")]
+    environment = {**os.environ, "ROS_MASTER_URI": master}
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
+
+
 def perception() -> Figures:
-    """What perceiving costs: all nodes from depth images at 30 Hz to people and pose, in real time."""
+    """What perceiving costs, and how long it takes.
+
+    All nodes from depth images at 30 Hz to people and pose, in real time.
+    """
     shutil.rmtree(RUN, ignore_errors=True)
     nodes = NodeTimes(
         ["depthimage_to_laserscan", "people_tracker", "constant_velocity_prediction", "localization"], RUN
@@ -221,10 +231,19 @@ def perception() -> Figures:
     perceived = ["people:=tracked", "localization:=mcl", "sensor:=xtion"]
     arguments = ["scenario:=office", "rate:=1", f"run_dir:={RUN}", *perceived]
     command = [sys.executable, "-m", "sarn_evaluation", "run", *arguments]
+    latency = None
     with subprocess.Popen(command, stdout=sys.stderr) as run:
         while run.poll() is None:
             nodes.look()
+            master = nodes.variable("people_tracker", "ROS_MASTER_URI")
+            if latency is None and master:
+                latency = _people_latency(master)
             time.sleep(0.5)
+    figures: Figures = {}
+    if latency is not None:
+        latency.terminate()
+        for name, value in json.loads(latency.communicate()[0] or "{}").items():
+            figures[f"tracking.latency_ms.{name}"] = value
     try:
         episode = json.loads((RUN / "episode.json").read_text(encoding="utf-8"))
     except OSError:
@@ -233,8 +252,8 @@ def perception() -> Figures:
     if not shares or not real_time_factor:
         raise BenchError(f"the run was too short to measure; see {RUN / 'launch.log'}")
     # A busy machine's clock runs slower than the wall's.
-    figures = {f"perception.cpu_cores.{node}": share / real_time_factor for node, share in shares.items()}
-    return {"perception.cpu_cores": sum(figures.values()), **figures}
+    cores = {f"perception.cpu_cores.{node}": share / real_time_factor for node, share in shares.items()}
+    return {"perception.cpu_cores": sum(cores.values()), **cores, **figures}
 
 
 def learning() -> Figures:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""CPU time of the ROS nodes of one run, from /proc."""
+"""CPU time and environment of the ROS nodes of one run, from /proc."""
 
 from __future__ import annotations
 
@@ -56,6 +56,15 @@ class NodeTimes:
         self._last = (time.monotonic(), times)
         if not self._first[1]:
             self._first = self._last
+
+    def variable(self, node: str, name: str) -> str:
+        """Environment variable of a node; empty as long as it does not run."""
+        try:
+            entries = (self._processes[node] / "environ").read_bytes().split(b"\0")
+        except (KeyError, OSError):
+            return ""
+        values = [entry.partition(b"=")[2] for entry in entries if entry.startswith(f"{name}=".encode())]
+        return values[0].decode() if values else ""
 
     def cores(self) -> Dict[str, float]:
         """CPU seconds of each node for each second of the clock on the wall; empty without two looks."""
