@@ -12,7 +12,8 @@
 namespace sarn_perception {
 namespace {
 
-constexpr int kSteps = 6;                // of Gauss and Newton
+constexpr int kSteps = 24;               // of Gauss and Newton
+constexpr double kFirstScale = 4.0;      // of align_scale; halved with each step
 constexpr std::size_t kFitPoints = 160;  // are enough for three numbers
 constexpr double kConverged = 1e-4;      // [m], [rad]
 
@@ -79,7 +80,8 @@ sarn::Pose2D Background::fit(const std::vector<SeenPoint>& points,
   const Eigen::Vector3d prior(params_.align_sigma_xy, params_.align_sigma_xy, params_.align_sigma_theta);
   const Eigen::Matrix3d prior_information = prior.array().square().inverse().matrix().asDiagonal();
   sarn::Pose2D pose = map_from_sensor;
-  for (int step = 0; step < kSteps; ++step) {
+  double widening = kFirstScale;
+  for (int step = 0; step < kSteps; ++step, widening = std::max(1.0, 0.5 * widening)) {
     const Eigen::Vector3d offset(pose.x - map_from_sensor.x, pose.y - map_from_sensor.y,
                                  sarn::angleDifference(map_from_sensor.theta, pose.theta));
     Eigen::Matrix3d information = prior_information;
@@ -87,7 +89,7 @@ sarn::Pose2D Background::fit(const std::vector<SeenPoint>& points,
     for (std::size_t i = 0; i < points.size(); i += every) {
       const Eigen::Vector2d place = pose * points[i].position;
       const Slope wall = slope(place);
-      const double scale = std::hypot(params_.align_scale, points[i].sigma);
+      const double scale = std::hypot(widening * params_.align_scale, points[i].sigma);
       const double ratio = wall.distance / scale;
       const double weight = 1.0 / (scale * scale * (1.0 + ratio * ratio) * (1.0 + ratio * ratio));
       const Eigen::Vector2d arm = place - pose.position();
@@ -99,7 +101,7 @@ sarn::Pose2D Background::fit(const std::vector<SeenPoint>& points,
     const Eigen::Vector3d move = information.ldlt().solve(pull);
     if (!move.allFinite()) return map_from_sensor;
     pose = {pose.x + move.x(), pose.y + move.y(), sarn::wrapAngle(pose.theta + move.z())};
-    if (move.cwiseAbs().maxCoeff() < kConverged) break;
+    if (widening == 1.0 && move.cwiseAbs().maxCoeff() < kConverged) break;
   }
   return pose;
 }

@@ -56,6 +56,25 @@ TEST(Background, undoesTheErrorOfTheLocalisation) {
   EXPECT_NEAR(fitted.theta, truth.theta, 0.01);
 }
 
+/// Fitted at once as finely as in the end, a wall may be taken for another, and its far end for a person.
+TEST(Background, undoesErrorsOfTwiceTheirDeviation) {
+  Background background({});
+  background.setMap(room());
+  const sarn::Pose2D truth{1.5, 1.5, 0.4};
+  const auto points = pointsOf(scanOf(truth, {}, 58, sarn::kPi / 3.0));  // as narrow a view as the camera's
+  for (const double dx : {-0.1, 0.1}) {
+    for (const double dy : {-0.1, 0.1}) {
+      for (const double turn : {-0.05, 0.05}) {
+        const sarn::Pose2D fitted = background.fit(points, {truth.x + dx, truth.y + dy, truth.theta + turn});
+        for (const SeenPoint& point : points) {
+          EXPECT_TRUE(background.explains(fitted * point.position, point.position.norm(), point.sigma))
+              << dx << " m, " << dy << " m, " << turn << " rad";
+        }
+      }
+    }
+  }
+}
+
 TEST(Background, trustsTheLocalisationWhereNoWallIsSeen) {
   Background background({});
   background.setMap(room());
