@@ -33,6 +33,12 @@ double ratioOf(const std::vector<Leg>& legs, const TrackerParams& params) {
 
 }  // namespace
 
+double PersonTrack::reliability() const {
+  constexpr double kNear = 0.5;  // [m]
+  const double apart = kNear / filter.positionSigma();
+  return existence * -std::expm1(-0.5 * apart * apart);
+}
+
 PeopleTracker::PeopleTracker(const TrackerParams& params) : params_(checkedParams(params)) {}
 
 void PeopleTracker::clear() {
@@ -219,7 +225,7 @@ WalkingFilter PeopleTracker::newcomer(const Eigen::Vector2d& position, double si
   return {position,
           sigma,
           params_.initial_speed_sigma,
-          {params_.stance_sigma, params_.swing_time, params_.settle_time}};
+          {params_.stance_sigma, params_.swing_time, params_.settle_time, params_.max_speed}};
 }
 
 std::vector<Leg> PeopleTracker::measured(const std::vector<Leg>& legs,

@@ -123,6 +123,11 @@ double PersonFilter::positionSigma() const {
   return std::sqrt(mean + spread);
 }
 
+void PersonFilter::limitSpeed() {
+  const double speed = velocity().norm();
+  if (speed > gait_.max_speed) state_.segment<2>(2) *= gait_.max_speed / speed;
+}
+
 void PersonFilter::halt() { state_.segment<2>(2).setZero(); }
 
 void PersonFilter::rest(double dt, double wander) {

@@ -56,25 +56,28 @@ void WalkingFilter::predict(double dt, const WalkingModel& model) {
   filters_[kSteady].predict(dt, model.steady_density);
   filters_[kChanging].predict(dt, model.changing_density);
   unseen_ += dt;
+  changes_ = true;
   combine();
 }
 
 void WalkingFilter::takeBackChanges(double density) {
-  if (!(unseen_ > 0.0)) return;
+  if (!changes_) return;
   measured_.predict(unseen_, density);
   filters_.fill(measured_);
-  unseen_ = 0.0;
+  changes_ = false;
 }
 
 void WalkingFilter::predict(double dt, double density) {
   takeBackChanges(density);
+  unseen_ += dt;
   for (PersonFilter& filter : filters_) filter.predict(dt, density);
   combine();
 }
 
 void WalkingFilter::rest(double dt, double wander) {
   for (PersonFilter& filter : filters_) filter.rest(dt, wander);
-  unseen_ = 0.0;
+  unseen_ += dt;
+  changes_ = false;
   combine();
 }
 
@@ -85,6 +88,7 @@ void WalkingFilter::update(const PersonMeasurement& measured) {
   for (std::size_t i = 0; i < 2; ++i) {
     weight[i] = share_[i] * std::exp(-0.5 * (cost[i] - least));
     filters_[i].update(measured);
+    filters_[i].limitSpeed();
   }
   const double total = weight[kSteady] + weight[kChanging];
   share_[kSteady] = std::clamp(weight[kSteady] / total, kLeastShare, 1.0 - kLeastShare);
@@ -92,6 +96,7 @@ void WalkingFilter::update(const PersonMeasurement& measured) {
   combine();
   measured_ = mixed_;
   unseen_ = 0.0;
+  changes_ = false;
 }
 
 void WalkingFilter::updateLegs(const std::vector<Leg>& legs, double age) {

@@ -80,6 +80,19 @@ TEST_F(PeopleTrackerTest, forgetsWhoIsSeenToBeGoneWithinASecond) {
   EXPECT_TRUE(tracker_.people().empty());
 }
 
+TEST_F(PeopleTrackerTest, saysHowReliableItsMemoryIs) {
+  walk({2.0, 0.0}, 0.8, 1.5);
+  const PersonTrack seen = tracker_.people().front();
+  EXPECT_NEAR(seen.reliability(), seen.existence, 1e-3) << "the place is as good as known";
+  lookAway(1.5, ahead(8.0F), {0.0, 0.0, sarn::kPi});
+  ASSERT_EQ(tracker_.people().size(), 1U);
+  const PersonTrack remembered = tracker_.people().front();
+  const double sigma = remembered.filter.positionSigma();
+  EXPECT_NEAR(remembered.reliability(),
+              remembered.existence * (1.0 - std::exp(-0.25 / (2.0 * sigma * sigma))), 1e-9);
+  EXPECT_LT(remembered.reliability(), 0.8 * seen.reliability());
+}
+
 TEST_F(PeopleTrackerTest, outOfViewIsNoEvidenceOfAbsence) {
   walk({2.0, 0.0}, 0.0, 1.0);
   const double sure = tracker_.people().front().filter.positionSigma();

@@ -123,5 +123,19 @@ TEST(PersonFilter, staysPositive) {
   EXPECT_LT(filter.positionSigma(), 1e-3);
 }
 
+TEST(PersonFilter, isNeverFasterThanPeopleAre) {
+  GaitModel gait;
+  gait.max_speed = 2.0;
+  PersonFilter filter({0.0, 0.0}, 0.05, 5.0, gait);
+  filter.predict(0.1, 15.0);
+  filter.update({0.6, 0.8}, 0.01, 0.0);  // 10 m/s
+  filter.limitSpeed();
+  EXPECT_NEAR(filter.velocity().x(), 1.2, 0.05);
+  EXPECT_NEAR(filter.velocity().y(), 1.6, 0.05);
+  const Eigen::Vector2d before = filter.velocity();
+  filter.limitSpeed();
+  EXPECT_NEAR((filter.velocity() - before).norm(), 0.0, 1e-12) << "only what is too fast";
+}
+
 }  // namespace
 }  // namespace sarn_perception

@@ -14,6 +14,7 @@ struct GaitModel {
   double stance_sigma = 0.09;  // [m] of a leg's offset on each axis
   double swing_time = 0.15;    // [s] times the speed: what comes to that along the way
   double settle_time = 0.25;   // [s] in which an offset that was seen is forgotten
+  double max_speed = 2.5;      // [m/s] nobody is faster
 };
 
 /// Positions that depend on a person's state linearly: value = h state + noise.
@@ -73,6 +74,9 @@ class PersonFilter {
   [[nodiscard]] Eigen::Matrix4d covariance() const { return covariance_.topLeftCorner<4, 4>(); }
   /// Standard deviation [m] of the position along its least certain direction.
   [[nodiscard]] double positionSigma() const;
+  /// Nobody runs: a faster velocity, as after a mistaken identity, is cut to the gait's max_speed, the
+  /// nearest one that is possible (Simon 2010, "Kalman Filtering with State Constraints").
+  void limitSpeed();
   /// The person stands: after walking into a wall.
   void halt();
   /// Goes `dt` [s] ahead, of somebody who stands: at rest, `wander` [m^2/s] the growth of the variance of the

@@ -118,6 +118,7 @@ struct TrackerParams {
   double swing_time = 0.15;            // [s] times the speed: what comes to that along the way
   double settle_time = 0.25;           // [s] in which a leg's offset from the middle is forgotten
   double gait_sigma = 0.16;            // [m] of a leg about a person's middle, in the association
+  double max_speed = 2.5;              // [m/s] nobody is faster
   double gate = 9.21;                  // squared Mahalanobis distance; 99 % in two dimensions
   double max_gate_distance = 0.9;      // [m] however uncertain a track is
   double max_leg_separation = 0.75;    // [m] between the legs of one person
@@ -159,6 +160,7 @@ struct TrackerParams {
     v("swing_time", p.swing_time, {0.0, 1.0});
     v("settle_time", p.settle_time, {0.01, 10.0});
     v("gait_sigma", p.gait_sigma, {0.001, 1.0});
+    v("max_speed", p.max_speed, {0.1, 20.0});
     v("gate", p.gate, {0.1, 100.0});
     v("max_gate_distance", p.max_gate_distance, {0.05, 10.0});
     v("max_leg_separation", p.max_leg_separation, {0.05, 2.0});

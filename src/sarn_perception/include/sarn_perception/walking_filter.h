@@ -61,14 +61,15 @@ class WalkingFilter {
   void update(const PersonMeasurement& measured);
   void mix(double dt, const WalkingModel& model);
   void combine();
-  /// Back to what was known when last measured, `unseen_` [s] ago, and from there on with `density`.
+  /// Back to what was known when last measured, and from there on with `density`.
   void takeBackChanges(double density);
 
   std::array<PersonFilter, 2> filters_;
   std::array<double, 2> share_{0.5, 0.5};  // probabilities of the two
   PersonFilter mixed_;                     // what both say together
   PersonFilter measured_;                  // the same, just after the last measurement
-  double unseen_ = 0.0;                    // [s] predicted with both models since then
+  double unseen_ = 0.0;                    // [s] since then
+  bool changes_ = false;                   // both models have gone on since then
 };
 
 }  // namespace sarn_perception

@@ -85,7 +85,7 @@ people_msgs::People toPeople(const std::vector<PersonTrack>& tracks, const sarn:
     person.name = "person_" + std::to_string(track.id);
     person.position = frame_from_tracks * track.filter.position();
     person.velocity = turn * track.filter.velocity();
-    person.reliability = track.existence;
+    person.reliability = track.reliability();
     message.people.push_back(sarn::toMessage(person));
   }
   return message;
