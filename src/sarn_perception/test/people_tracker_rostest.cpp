@@ -97,7 +97,9 @@ class PeopleTrackerNodeTest : public ::testing::Test {
     sensor_msgs::LaserScan scan = goodScan(beams);
     if (spoil) spoil(scan);
     scan_.publish(scan);
-    waitFor([this] { return done_.toSec() > time_ - 0.5 * kPeriod; }, 0.01);
+    // A good one is acknowledged; of others the node may never say so.
+    const double patience = with_tf && !spoil ? 1.0 : 0.01;
+    waitFor([this] { return done_.toSec() > time_ - 0.5 * kPeriod; }, patience);
   }
   /// Good scans until the walker is reported where it is.
   [[nodiscard]] bool walkerIsReported() {
@@ -125,7 +127,7 @@ class PeopleTrackerNodeTest : public ::testing::Test {
     during(2.0, bad);
     EXPECT_TRUE(waitFor([&] { return log.count(cause) > 0; }, 10.0, bad)) << log.lines();
     EXPECT_LE(log.count(cause), 2) << log.lines();
-    EXPECT_LE(log.count(), 4) << "lines in 2 s:\n" << log.lines();
+    EXPECT_LE(log.count(), 6) << "lines in 2 s:\n" << log.lines();
     if (after) after();
     EXPECT_TRUE(walkerIsReported());
   }

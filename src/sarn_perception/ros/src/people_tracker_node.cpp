@@ -218,7 +218,7 @@ std::optional<sarn::Pose2D> PeopleTrackerNode::localization(const ros::Time& sta
   if (transform.header.stamp.isZero() || age <= params_.localization_timeout) return pose;
   ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "tf: '" << params_.odom_frame << "' in '" << params_.map_frame
                                                    << "' is " << age
-                                                   << " s old; no people until it is fresh");
+                                                   << " s old; no scan is used until it is fresh");
   return std::nullopt;
 }
 
