@@ -92,6 +92,17 @@ bool Search::proved() {
   return best_goal_ != kNoState && best_cost_ <= task_.params.suboptimality_bound * frontier_.lowest();
 }
 
+bool Search::goodEnough() {
+  if (!effort_.improvedEnough()) return false;
+  if (task_.params.promising_expansions == 0) return true;
+  double cheapest = best_cost_;
+  open_.forEach([&](const OpenList::Entry& entry) {
+    const SearchState& state = pool_[entry.id];
+    if (!state.done) cheapest = std::min(cheapest, state.g + static_cast<double>(state.estimate));
+  });
+  return !effort_.goesOn(cheapest / best_cost_);
+}
+
 Search::Outcome Search::run() {
   const StateId start = addStart();
   if (pool_[start].h == kInfinity) return Outcome::kExhausted;
@@ -114,7 +125,7 @@ Search::Outcome Search::run() {
     expand(entry.id);
     if (best_goal_ == kNoState && effort_.hurries()) reorderOpen();
     if (proved()) return Outcome::kProved;
-    if (effort_.improvedEnough()) return Outcome::kGoodEnough;
+    if (goodEnough()) return Outcome::kGoodEnough;
   }
   return best_goal_ != kNoState ? Outcome::kProved : Outcome::kExhausted;
 }

@@ -46,6 +46,7 @@ class Search {
   void acceptGoal(StateId id);
   void reorderOpen();
   [[nodiscard]] bool proved();
+  [[nodiscard]] bool goodEnough();
 
   void finish(Outcome outcome, PlanResult& result);
   [[nodiscard]] sarn::TimedTrajectory trajectoryTo(StateId id) const;

@@ -9,13 +9,16 @@ namespace {
 constexpr double kFall = 0.75;  // of what the weight is above 1, with each better plan
 constexpr double kHurry = 1.5;
 constexpr double kHurriedWeight = 5.0;
+constexpr double kPromising = 0.935;  // a guess of so small a share of the plan's cost
+constexpr double kDisappointing = 0.945;
+constexpr std::size_t kPatience = 16;  // times the work until then
 
 }  // namespace
 
 void SearchEffort::begin(Clock::time_point deadline) {
   deadline_ = deadline;
   weight_ = params_.heuristic_weight;
-  expansions_ = generated_ = enough_expansions_ = 0;
+  expansions_ = generated_ = enough_expansions_ = most_expansions_ = 0;
   hurry_at_ = static_cast<std::size_t>(params_.hurry_after);
 }
 
@@ -33,6 +36,17 @@ void SearchEffort::planFound(bool first) {
     enough_expansions_ = expansions_ + static_cast<std::size_t>(more);
   }
   weight_ = weight_ > 1.02 ? 1.0 + kFall * (weight_ - 1.0) : 1.0;
+}
+
+bool SearchEffort::goesOn(double guess) {
+  const bool promising = guess < (most_expansions_ == 0 ? kPromising : kDisappointing);
+  if (most_expansions_ == 0) {
+    most_expansions_ =
+        std::min(kPatience * expansions_, static_cast<std::size_t>(params_.promising_expansions));
+  }
+  if (!promising || expansions_ >= most_expansions_) return false;
+  enough_expansions_ = std::min(most_expansions_, expansions_ + expansions_ / 4 + 1);
+  return true;
 }
 
 /// The guess errs here. Better a dearer plan soon than none; its bound tells.

@@ -29,6 +29,9 @@ class SearchEffort {
   [[nodiscard]] bool improvedEnough() const {
     return enough_expansions_ > 0 && expansions_ >= enough_expansions_;
   }
+  /// After that, whether to go on none the less: `guess` is what the plan may come down to, as a share of its
+  /// cost. Where that is much less, the search goes on until it is little less, within limits.
+  [[nodiscard]] bool goesOn(double guess);
   /// A plan is in hand: the weight falls, so that the bound can be proved.
   void planFound(bool first);
   /// Without a plan after much work: true, with a larger weight, each time the work has doubled.
@@ -41,6 +44,7 @@ class SearchEffort {
   std::size_t expansions_ = 0;
   std::size_t generated_ = 0;          // successors looked at
   std::size_t enough_expansions_ = 0;  // 0: no limit
+  std::size_t most_expansions_ = 0;    // of a search that goes on; 0: it does not yet
   std::size_t hurry_at_ = 0;           // [expansions] 0: never
 };
 

@@ -175,6 +175,26 @@ TEST(SocialLayers, touchesOnlyWhatItPaints) {
   }
 }
 
+// A mark on a cell that nobody comes near stands for all of them: clearing whole maps would wipe it out.
+TEST(SocialLayers, writesNothingWhereNobodyIs) {
+  constexpr std::uint8_t kMark = 77;
+  const std::size_t far_away = kGrid.index({2, kGrid.height - 3});
+  SocialLayers layers = makeLayers();
+  for (const std::uint8_t* layer : layers.layers()) const_cast<std::uint8_t*>(layer)[far_away] = kMark;
+  for (int i = 0; i < 5; ++i) {
+    layers.update(prediction({walker("anna", {1.0 + 0.3 * i, 1.0}, {0.4, 0.0})}), 10.0);
+    for (const TimeLayer& layer : layers.timeLayers()) {
+      ASSERT_FALSE(layer.painted.empty());
+      ASSERT_EQ(layer.cells[far_away], kMark);
+    }
+  }
+  layers.clear();
+  for (const TimeLayer& layer : layers.timeLayers()) {
+    EXPECT_EQ(layer.cells[far_away], kMark);
+    EXPECT_EQ(std::count_if(layer.cells.begin(), layer.cells.end(), [](int cost) { return cost != 0; }), 1);
+  }
+}
+
 TEST(SocialLayers, givesTheSameCostsInAnyOrderOfPeople) {
   std::vector<sarn::PersonPrediction> people;
   std::mt19937 random(6);

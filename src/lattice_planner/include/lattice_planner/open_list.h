@@ -37,6 +37,11 @@ class OpenList {
     return top;
   }
 
+  template <class Visit>
+  void forEach(Visit&& visit) const {
+    for (const Entry& entry : heap_) visit(entry);
+  }
+
   /// Gives every entry a new key; entries for which `rekey(entry)` returns false are dropped.
   template <class Rekey>
   void rebuild(Rekey&& rekey) {

@@ -57,10 +57,12 @@ struct PlannerParams {
   // Improve until this many times the first solution's work is done, and least_improvement; 0: no such limit.
   double improvement_effort = 0.5;
   int least_improvement = 200;  // [expansions]
-  int hurry_after = 3000;       // [expansions] without a plan until heuristic_weight rises; 0: never
-  int max_expansions = 0;       // 0: only time limits; else a bound that gives the same answer on any machine
-  int max_states = 1000000;     // memory bound: about 90 bytes each
-  double table_radius = 1.0;    // [m] of the obstacle-free cost table around the goal; 0: no table
+  // Until so much is done in all, improve on where a guess promises a much cheaper plan; 0: nowhere.
+  int promising_expansions = 0;
+  int hurry_after = 3000;     // [expansions] without a plan until heuristic_weight rises; 0: never
+  int max_expansions = 0;     // 0: only time limits; else a bound that gives the same answer on any machine
+  int max_states = 1000000;   // memory bound: about 90 bytes each
+  double table_radius = 1.0;  // [m] of the obstacle-free cost table around the goal; 0: no table
   double table_resolution = 0.1;  // [m]
   int table_headings = 48;
 
@@ -96,6 +98,7 @@ struct PlannerParams {
     v("suboptimality_bound", p.suboptimality_bound, {1.0, 100.0});
     v("improvement_effort", p.improvement_effort, {0.0, 1e6});
     v("least_improvement", p.least_improvement, {0.0, 1e9});
+    v("promising_expansions", p.promising_expansions, {0.0, 1e9});
     v("hurry_after", p.hurry_after, {0.0, 1e9});
     v("max_expansions", p.max_expansions, {0.0, 2e9});
     v("max_states", p.max_states, {1000.0, 5e7});
