@@ -16,6 +16,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
 
 from sarn_evaluation.occupancy import load_map
 
@@ -54,6 +55,13 @@ def draw(paths: Dict[str, Paths], map_file: Path, picture: Path) -> None:
     axes.set_xlim(min(p[0] for p in places) - 1.0, max(p[0] for p in places) + 1.0)
     axes.set_ylim(min(p[1] for p in places) - 1.0, max(p[1] for p in places) + 1.0)
     axes.set_aspect("equal")
+    legend = {
+        "people": Line2D([], [], color="0.7", linewidth=5),
+        "the same, in view": Line2D([], [], color="black", marker="o", markersize=3, linestyle=""),
+        "tracks": Line2D([], [], color="C0", marker=".", linestyle=""),
+        "robot, from the dot": Line2D([], [], color="tab:red", marker="o", linestyle="--"),
+    }
+    axes.legend(legend.values(), legend.keys(), loc="upper left", ncols=2, fontsize="small")
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
     figure.tight_layout()
