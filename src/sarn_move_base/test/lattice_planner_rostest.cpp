@@ -145,6 +145,36 @@ TEST_F(Plugins, planningChangesNoCostAndTheCostmapOutlivesItsPlugins) {
   EXPECT_EQ(costs(), before);
 }
 
+// A plan is told to whoever asks for it; nobody's maps, clouds or heuristics are drawn for it, and what it
+// listens to was subscribed to once.
+TEST_F(Plugins, planningDrawsNoMapsAndSubscribesToNothingAnew) {
+  const auto planner = makePlanner();
+  tell({kStanding});
+  const auto subscribed = [] {
+    ros::V_string topics;
+    ros::this_node::getSubscribedTopics(topics);
+    return std::set<std::string>(topics.begin(), topics.end());
+  };
+  const auto before = subscribed();
+  for (int i = 0; i < 3; ++i) {
+    Poses plan;
+    ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0 + 0.2 * i, 0.0}), plan));
+  }
+  EXPECT_EQ(subscribed(), before);
+  ros::V_string advertised;
+  ros::this_node::getAdvertisedTopics(advertised);
+  ros::master::V_TopicInfo topics;
+  ASSERT_TRUE(ros::master::getTopics(topics));
+  int plans = 0;
+  for (const auto& topic : topics) {
+    if (std::find(advertised.begin(), advertised.end(), topic.name) == advertised.end()) continue;
+    EXPECT_NE(topic.datatype, "nav_msgs/OccupancyGrid") << topic.name;
+    EXPECT_NE(topic.datatype, "sensor_msgs/PointCloud2") << topic.name;
+    plans += topic.datatype == "nav_msgs/Path" ? 1 : 0;
+  }
+  EXPECT_EQ(plans, 1);
+}
+
 TEST_F(Plugins, plannerRefusesWhatItCannotPlan) {
   walls_->add(7.5, 2.5, 8.5, 3.5);
   const auto planner = makePlanner();
