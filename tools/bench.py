@@ -127,6 +127,8 @@ def _planner_bench(name: str, options: List[str], params: str) -> Figures:
         "reached": "reached",
         "duration_s.mean": "duration_s_mean",
         "person_m.median": "person_m_median",
+        "person_m.min": "person_m_min",
+        "bound.median": "bound_median",
         "cost_over_optimum_pct.median": "over_optimum_pct_median",
         "cost_over_ancestor_pct.median": "over_ancestor_pct_median",
         "cost_over_ancestor_pct.max": "over_ancestor_pct_max",

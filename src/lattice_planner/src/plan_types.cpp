@@ -14,7 +14,7 @@ const char* toString(PlanStatus status) {
     case PlanStatus::kStartOccupied:
       return "start occupied";
     case PlanStatus::kGoalOccupied:
-      return "goal occupied";
+      return "goal occupied or unknown";
     case PlanStatus::kGoalOutsideMap:
       return "goal outside map";
     case PlanStatus::kStartOutsideMap:

@@ -20,7 +20,7 @@ enum class PlanStatus {
   kInvalidRequest,   // a value is not finite, a costmap pointer is missing, a time limit is not positive
 };
 
-/// The status as text, for example "goal occupied".
+/// The status as text, for example "goal outside map".
 [[nodiscard]] const char* toString(PlanStatus status);
 
 /// True when the trajectory leads towards the goal and may be driven.

@@ -34,7 +34,7 @@ struct PlannerParams {
   // its start as one more sample of cost, people where they are when the action begins.
   bool charge_cells = false;
 
-  // Where the prediction ends: true: only people who stood still remain; false: all stay as the last layer
+  // Where the time layers end: true: only people who stood still remain; false: all stay as the last layer
   // shows them.
   bool forget_moving_people = true;
 
