@@ -15,6 +15,7 @@ from sarn_rl.norms import breaks_norm
 from sarn_rl.policies.base import Policy
 from sarn_rl.reward import RewardParams, norm_reward
 from sarn_rl.training.foresight import Foresight, Grid, Motions
+from sarn_rl.undisturbed import Undisturbed
 
 # Northbound at 1 m/s, 4 m from the goal.
 ROBOT = np.array([0.0, 0.0, 0.0, 1.0, 0.3, 0.0, 4.0, 1.0, np.pi / 2])
@@ -83,7 +84,7 @@ def test_foresight_knows_the_norm(norm: str, better: float) -> None:
     motions = Motions(steps[None], 0.5 * steps[None], np.zeros((1, 5), dtype=int))
     grid = Grid((-3.0, -4.0), 0.25, 25, 33)
     reward = RewardParams(norm=norm, norm_cost=0.2)
-    foresight = Foresight(grid, motions, np.array([0.0, 4.0]), 0.3, 0.97, 0.9, reward, 0.25)
+    foresight = Foresight(grid, motions, np.array([0.0, 4.0]), 0.3, 1.0, 0.97, Undisturbed(0.9), reward, 0.25)
     north = 2.0 - 0.25 * np.arange(41)
     ways = np.stack([np.zeros(41), north], axis=-1)[None, :, None]
     first = foresight.values(ways, np.full((1, 1), 0.3))[:, 0, 0]
