@@ -26,7 +26,8 @@ from sarn_rl.training.params import (
     TeacherParams,
     TrainingParams,
 )
-from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, STATE_FILE, Trainer, selection_score
+from sarn_rl.training.selection import selection_score
+from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, STATE_FILE, Trainer
 from sarn_rl.undisturbed import Undisturbed
 
 pytestmark = pytest.mark.usefixtures("few_validation_cases")

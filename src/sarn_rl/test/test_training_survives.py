@@ -20,7 +20,8 @@ from sarn_rl.checkpoint import CheckpointError, load_checkpoint
 from sarn_rl.declared import to_dict
 from sarn_rl.training.learner import DivergedError, Learner
 from sarn_rl.training.params import TrainingParams
-from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, LOG_FILE, STATE_FILE, Trainer
+from sarn_rl.training.run_log import LOG_FILE
+from sarn_rl.training.trainer import BEST_FILE, LAST_FILE, STATE_FILE, Trainer
 
 pytestmark = pytest.mark.usefixtures("few_validation_cases")
 

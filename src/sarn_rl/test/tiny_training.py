@@ -22,7 +22,8 @@ from sarn_rl.training.params import (
     ReplayParams,
     TrainingParams,
 )
-from sarn_rl.training.trainer import LOG_FILE, Trainer
+from sarn_rl.training.run_log import LOG_FILE
+from sarn_rl.training.trainer import Trainer
 
 
 def tiny(**changes: Any) -> TrainingParams:

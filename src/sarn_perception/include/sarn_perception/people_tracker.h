@@ -31,8 +31,7 @@ struct PersonTrack {
   bool standing = false;                           // when last seen
 
   /// Probability that somebody is within half a metre of the track's place, the position being normally
-  /// distributed: existence (1 - exp(-0.5^2 / (2 sigma^2))). People in view have their existence; who left
-  /// the view a second ago some 0.6; beyond report_sigma nobody is reported at all.
+  /// distributed: existence (1 - exp(-0.5^2 / (2 sigma^2))), sigma that of its least certain direction.
   [[nodiscard]] double reliability() const;
 };
 

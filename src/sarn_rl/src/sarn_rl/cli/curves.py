@@ -16,7 +16,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from sarn_rl.cli.outputs import prepared
-from sarn_rl.training.trainer import LOG_FILE
+from sarn_rl.training.run_log import LOG_FILE
 
 # Episodes that a point of a training curve is the mean of.
 WINDOW = 100

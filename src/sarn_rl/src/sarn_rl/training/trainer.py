@@ -8,7 +8,7 @@ import sys
 import time
 from collections import deque
 from pathlib import Path
-from typing import Any, Deque, Dict, List, Optional, TextIO, Tuple
+from typing import Any, Deque, Dict, Optional, TextIO, Tuple
 
 import numpy as np
 import torch
@@ -37,17 +37,16 @@ from sarn_rl.training.learner import DivergedError, Learner
 from sarn_rl.training.params import TrainingParams
 from sarn_rl.training.progress import ProgressLine
 from sarn_rl.training.replay import ReplayMemory
+from sarn_rl.training.run_log import LOG_FILE, event_writer, keep_log_until
+from sarn_rl.training.selection import FIRST_SELECTION_CASE, judged, selection_score
 from sarn_rl.training.transitions import Transitions, padded
 
 STATE_FILE = "training_state.pt"
 LAST_FILE = "last.pt"
 BEST_FILE = "best.pt"
 TAUGHT_FILE = "taught.pt"
-LOG_FILE = "log.jsonl"
 LESSONS_FILE = "lessons.pt"
 CONFIG_FILE = "config.yaml"
-# Training cases by whose number no training comes.
-FIRST_SELECTION_CASE = 1_000_000
 
 
 class Trainer:
@@ -100,7 +99,7 @@ class Trainer:
 
     def run(self) -> Dict[str, Any]:
         """Trains to the end; the last validation. DivergedError keeps the checkpoints written before."""
-        with _event_writer(self._directory) as events:
+        with event_writer(self._directory) as events:
             self._events = events
             demonstrations = self._timed("demonstrations", self._demonstrate)
             memory = ReplayMemory(self._params.replay, self._example(demonstrations.transitions))
@@ -263,7 +262,7 @@ class Trainer:
             numbers = range(FIRST_SELECTION_CASE, FIRST_SELECTION_CASE + count)
             parts.append(self._run_cases("training", numbers))
             result = {**result, "selection_success": parts[1]["success"]}
-        return {**result, **_judged(parts)}
+        return {**result, **judged(parts)}
 
     def _is_selecting(self) -> bool:
         learning = self._params.learning
@@ -340,7 +339,7 @@ class Trainer:
         memory = state["memory"]
         memory["arrays"] = [array.numpy() for array in memory["arrays"]]
         self._restored = {"memory": memory}
-        _keep_log_until(self._directory / LOG_FILE, self._episodes)
+        keep_log_until(self._directory / LOG_FILE, self._episodes)
 
     def _tell_best_of_the_run(self) -> None:
         """The best network was found by the whole run: what that took goes with it."""
@@ -369,71 +368,8 @@ class Trainer:
         save_checkpoint(self._directory / name, Checkpoint(self._learner.average, self._contract, origin))
 
 
-def selection_score(result: Dict[str, Any], wanted_success: float) -> Tuple[float, ...]:
-    """Which of two networks is kept: that of the greater score.
-
-    Judged by more cases comes before judged by fewer. Then the one that arrives as often as it is wanted to;
-    of those that do the quicker, of the others that of the greater mean return.
-
-    Args:
-        result: of a validation.
-        wanted_success: share of the cases; 0: the mean return decides.
-    """
-    arrives = wanted_success > 0.0 and result["judged_success"] >= wanted_success
-    merit = -result["judged_time_s"] if arrives else result["judged_return"]
-    return (result["judged_by"], float(arrives), merit, result["success"])
-
-
-def _judged(parts: List[Dict[str, Any]]) -> Dict[str, Any]:
-    """Figures of all cases of several summaries."""
-    cases = sum(part["cases"] for part in parts)
-    arrived = [round(part["cases"] * part["success"]) for part in parts]
-    times = [0.0 if part["time_s"] is None else part["time_s"] for part in parts]
-    return {
-        "judged_by": cases,
-        "judged_return": sum(part["cases"] * part["mean_return"] for part in parts) / cases,
-        "judged_success": sum(arrived) / cases,
-        "judged_time_s": float(np.average(times, weights=arrived)) if sum(arrived) else None,
-    }
-
-
 def _passed(before: int, now: int, every: int) -> bool:
     return now // every > before // every
 
 
-def _keep_log_until(path: Path, episodes: int) -> None:
-    """Drops what was logged after the checkpoint, and a line that was cut off: those episodes come again."""
-    if not path.exists():
-        return
-    kept: List[str] = []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        try:
-            entry = json.loads(line)
-        except json.JSONDecodeError:  # killed, or the disk was full
-            break
-        if entry.get("number", entry.get("episodes", 0)) > episodes:
-            break
-        kept.append(line)
-    path.write_text("".join(line + "\n" for line in kept), encoding="utf-8")
-
-
-class _NoEvents:
-    def add_scalar(self, name: str, value: float, step: int) -> None:
-        """Nothing: TensorBoard is not installed."""
-
-    def __enter__(self) -> _NoEvents:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Nothing to close."""
-
-
-def _event_writer(directory: Path) -> Any:
-    try:
-        from torch.utils.tensorboard import SummaryWriter
-    except ImportError:
-        return _NoEvents()
-    return SummaryWriter(str(directory))
-
-
-__all__ = ["DivergedError", "Trainer", "selection_score"]
+__all__ = ["DivergedError", "Trainer"]
