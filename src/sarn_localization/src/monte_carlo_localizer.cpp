@@ -123,12 +123,12 @@ struct MonteCarloLocalizer::Impl {
 
   /// Carries on by odometry where nothing is seen, step by step as with scans: the motion model's noise is of
   /// short motions. The correction of the odometry stays; how sure it is falls.
-  bool moveBlindly(const sarn::Pose2D& motion, const sarn::Pose2D& robot_in_odom) {
+  bool moveBlindly(const sarn::Pose2D& motion, const sarn::Pose2D& robot_in_odom, std::size_t people_beams) {
     if (!estimate || !movedEnough(motion)) return false;
     filter.move(belief(motion));
     estimate = PoseEstimate{estimate->pose * motion, heaviestCluster(filter.weightedPoses()).covariance};
     odom_at_update = robot_in_odom;
-    status = {0, 0, 0.0, monitor.slow(), monitor.fast(), 0.0};
+    status = {0, people_beams, 0.0, monitor.slow(), monitor.fast(), 0.0};
     return true;
   }
 
@@ -136,16 +136,16 @@ struct MonteCarloLocalizer::Impl {
     if (!walls || knowledge == Knowledge::kNothing) return false;
     const bool anywhere = knowledge == Knowledge::kAnywhere;
     if (scan.beams.size() < kFewestBeams) {
-      return !anywhere && moveBlindly(sarn::inverse(odom_at_update) * robot_in_odom, robot_in_odom);
+      return !anywhere && moveBlindly(sarn::inverse(odom_at_update) * robot_in_odom, robot_in_odom, 0);
     }
     const sarn::Pose2D motion = anywhere ? sarn::Pose2D{} : sarn::inverse(odom_at_update) * robot_in_odom;
     if (!anywhere && !force_update && !movedEnough(motion)) return false;
     if (anywhere) spreadOverMap(scan);
 
     const ScanLikelihood likelihood(params, anywhere ? scan : withoutPeople(scan, motion));
+    if (likelihood.scan().beams.empty()) return moveBlindly(motion, robot_in_odom, scan.beams.size());
     const double explained = filter.update(belief(motion), likelihood, *walls);
-    const bool tells = !likelihood.scan().beams.empty() && scan.coverage >= params.least_coverage;
-    const double share = tells ? monitor.add(explained) : 0.0;
+    const double share = scan.coverage >= params.least_coverage ? monitor.add(explained) : 0.0;
     addRandomParticles(share, likelihood.scan());
 
     estimate = heaviestCluster(filter.weightedPoses());

@@ -7,15 +7,29 @@
 namespace sarn_localization {
 namespace {
 
-std::vector<std::size_t> usableBeams(const PlanarScan& scan, const BeamLimits& limits) {
+struct Indices {
+  std::vector<std::size_t> usable;
+  std::vector<std::size_t> silent;
+};
+
+Indices sortBeams(const PlanarScan& scan, const BeamLimits& limits) {
   const double low = std::max(scan.range_min, limits.min_range);
   const double high = std::min(scan.range_max, limits.max_range);
-  std::vector<std::size_t> usable;
+  Indices indices;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges[i]);
-    if (range >= low && range <= high) usable.push_back(i);  // false for NaN
+    const bool usable = range >= low && range <= high;  // false for NaN
+    (usable ? indices.usable : indices.silent).push_back(i);
   }
-  return usable;
+  return indices;
+}
+
+/// At most `count` of them, evenly spread.
+std::vector<std::size_t> evenly(const std::vector<std::size_t>& indices, std::size_t count) {
+  if (indices.size() <= count) return indices;
+  std::vector<std::size_t> some(count);
+  for (std::size_t k = 0; k < count; ++k) some[k] = indices[(2 * k + 1) * indices.size() / (2 * count)];
+  return some;
 }
 
 }  // namespace
@@ -25,17 +39,19 @@ ScanBeams selectBeams(const PlanarScan& scan, const sarn::Pose2D& base_from_sens
   ScanBeams result;
   result.origin = base_from_sensor.position();
   if (!std::isfinite(scan.angle_min) || !std::isfinite(scan.angle_increment)) return result;
-  const std::vector<std::size_t> usable = usableBeams(scan, limits);
-  const std::size_t count = std::min(usable.size(), limits.max_beams);
-  result.beams.reserve(count);
+  result.reach = std::min(scan.range_max, limits.max_range);
+  const auto [usable, silent] = sortBeams(scan, limits);
   if (!scan.ranges.empty()) {
     result.coverage = static_cast<double>(usable.size()) / static_cast<double>(scan.ranges.size());
   }
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = usable[(2 * k + 1) * usable.size() / (2 * count)];
+  const auto directionOf = [&](std::size_t i) {
     const double angle = base_from_sensor.theta + scan.angle_min +
                          (static_cast<double>(i) + limits.beam_offset) * scan.angle_increment;
-    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    return Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  };
+  for (const std::size_t i : evenly(silent, limits.max_silent)) result.silent.push_back(directionOf(i));
+  for (const std::size_t i : evenly(usable, limits.max_beams)) {
+    const Eigen::Vector2d direction = directionOf(i);
     const auto measured = static_cast<double>(scan.ranges[i]);
     const double range = measured + limits.range_bias * measured * measured;
     result.beams.push_back({result.origin + range * direction, direction, range});

@@ -41,6 +41,13 @@ inline sarn::OccupancyMap unevenRoom() {
   return map;
 }
 
+/// 30 m x 30 m without anything in it.
+inline sarn::OccupancyMap hall() {
+  std::vector<std::string> rows(60, "#" + std::string(58, '.') + "#");
+  rows.front() = rows.back() = std::string(60, '#');
+  return drawnMap(rows, 0.5);
+}
+
 /// Every second cell of a map, twice as wide.
 inline sarn::OccupancyMap coarser(const sarn::OccupancyMap& map) {
   const sarn::GridGeometry& fine = map.geometry;

@@ -126,6 +126,23 @@ TEST_F(MonteCarloLocalizerTest, holdsThePoseWhereOnlyAPersonIsSeen) {
   EXPECT_LT(drive_.error(localizer_), 0.25) << "the odometry drifts on, but nothing jumps";
 }
 
+TEST(MonteCarloLocalizer, isNotPulledAwayByACrowdWhereNoWallIsWithinReach) {
+  MonteCarloLocalizer localizer(params());
+  localizer.setMap(hall());
+  sarn::Pose2D truth{15.0, 14.0, 1.0};
+  PoseEstimate start{truth, Eigen::Matrix3d::Zero()};
+  start.covariance.diagonal() << 0.02, 0.02, 0.01;
+  localizer.setPose(start, {});
+  PlanarScan scan = idealScan(WallDistance(hall()), truth, kXtion, 120);
+  for (std::size_t i = 20; i < 80; ++i) scan.ranges[i] = i < 50 ? 1.4F : 2.2F;
+  const sarn::Pose2D at_first = truth;
+  for (int i = 0; i < 20; ++i) {
+    truth = sarn::advance(truth, {0.3, 0.5}, 0.25);
+    localizer.addScan(sarn::inverse(at_first) * truth, selectBeams(scan, {}, kLimits));
+    EXPECT_LT((localizer.estimate()->pose.position() - truth.position()).norm(), 0.05) << "step " << i;
+  }
+}
+
 TEST_F(MonteCarloLocalizerTest, updatesOnlyAfterMotion) {
   knowStart();
   EXPECT_TRUE(localizer_.addScan(drive_.odometry(), drive_.look()));

@@ -162,6 +162,24 @@ TEST_F(DistanceFilterTest, keepsAllWhenNearlyAllWouldGo) {
   EXPECT_EQ(withoutShortBeams(selectBeams(scan_, {}, {}), {truth_}, walls_, {}).beams.size(), 60U);
 }
 
+class CrowdInAHallTest : public testing::Test {
+ protected:
+  CrowdInAHallTest() {
+    for (std::size_t i = 10; i < 40; ++i) scan_.ranges[i] = 2.0F;
+  }
+  [[nodiscard]] std::size_t kept(const sarn::Pose2D& belief) const {
+    return withoutShortBeams(selectBeams(scan_, {}, {60, 0.0, 10.0}), {belief}, walls_, {}).beams.size();
+  }
+  WallDistance walls_{hall()};
+  PlanarScan scan_ = idealScan(walls_, {15.0, 15.0, 0.0}, 1.02, 60);  // the walls are out of reach
+};
+
+TEST_F(CrowdInAHallTest, goesThoughItIsAllThatIsSeen) { EXPECT_EQ(kept({15.0, 15.0, 0.0}), 0U); }
+
+TEST_F(CrowdInAHallTest, castsDoubtOnABeliefThatExpectsWallsWhereNothingIs) {
+  EXPECT_EQ(kept({23.0, 15.0, 0.0}), 30U);
+}
+
 TEST(LikelyPoses, areWhereTheScanFits) {
   const WallDistance walls(unevenRoom());
   const sarn::Pose2D truth{5.0, 2.0, 2.0};

@@ -55,7 +55,7 @@ struct LocalizationParams : SharedParams {
   bool do_beamskip = true;
   double beam_skip_distance = 0.3;         // [m] shorter than the map says, to be taken for something else
   double beam_skip_threshold = 0.8;        // [1] share of the belief that has to agree on it
-  double beam_skip_error_threshold = 0.9;  // [1] when more beams than this would go, all are used
+  double beam_skip_error_threshold = 0.9;  // [1] when more of what is seen than this would go, all are used
 
   // Recovery (augmented MCL: Thrun et al. 2005, table 8.3)
   double recovery_alpha_slow = 0.002;  // [1] weight of a new likelihood in the slow average; 0: no recovery

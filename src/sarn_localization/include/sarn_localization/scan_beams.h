@@ -29,7 +29,9 @@ struct Beam {
 struct ScanBeams {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // [m] of the sensor, in base
   std::vector<Beam> beams;
-  double coverage = 1.0;  // [1] share of the scan's beams that are returns
+  std::vector<Eigen::Vector2d> silent;  // unit, in base: some of the directions that returned nothing
+  double coverage = 1.0;                // [1] share of the scan's beams that are returns
+  double reach = 0.0;                   // [m] a wall nearer than that returns something
 };
 
 struct BeamLimits {
@@ -38,10 +40,12 @@ struct BeamLimits {
   double max_range = 6.0;    // [m]
   double range_bias = 0.0;   // [1/m] a range r is measured range_bias * r^2 too short
   double beam_offset = 0.0;  // [beams] what a beam shows lies this far on
+  std::size_t max_silent = 20;
 };
 
 /// At most max_beams returns within both the sensor's and our limits, evenly spread over those there are,
-/// with the biases taken off. What is not finite is left out.
+/// with the biases taken off. What is not finite is left out; of the directions without a return there are at
+/// most max_silent, evenly spread, too.
 ///
 /// A scan from a band of rows of a structured-light camera is biased: the nearest of ten rows wins, each with
 /// a noise that grows with the square of the range (Nguyen et al. 2012). And depthimage_to_laserscan, as the
