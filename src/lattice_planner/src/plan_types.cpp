@@ -14,7 +14,7 @@ const char* toString(PlanStatus status) {
     case PlanStatus::kStartOccupied:
       return "start occupied";
     case PlanStatus::kGoalOccupied:
-      return "goal occupied or unknown";
+      return "goal occupied";
     case PlanStatus::kGoalOutsideMap:
       return "goal outside map";
     case PlanStatus::kStartOutsideMap:
@@ -23,6 +23,8 @@ const char* toString(PlanStatus status) {
       return "no path";
     case PlanStatus::kInvalidRequest:
       return "invalid request";
+    case PlanStatus::kGoalUnknown:
+      return "goal in unknown space";
   }
   return "unknown";
 }

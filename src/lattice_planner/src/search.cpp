@@ -25,6 +25,7 @@ Search::Search(const PlannerParams& params)
 PlanResult Search::plan(const PlanRequest& request, const sarn::TimedCostmapView& costmap) {
   using Clock = SearchEffort::Clock;
   const Clock::time_point begin = Clock::now();
+  first_plan_.reset();
   PlanResult result;
   const std::optional<PlanStatus> refused = task_.refuse(request, costmap);
   if (refused) {
@@ -38,13 +39,17 @@ PlanResult Search::plan(const PlanRequest& request, const sarn::TimedCostmapView
       finish(run(), result);
     }
   }
-  result.search_time = std::chrono::duration<double>(Clock::now() - begin).count();
+  const auto since_begin = [begin](Clock::time_point t) {
+    return std::chrono::duration<double>(t - begin).count();
+  };
+  if (first_plan_) result.first_plan_time = since_begin(*first_plan_);
+  result.search_time = since_begin(Clock::now());
   return result;
 }
 
 void Search::prepare(const PlanRequest& request, const sarn::TimedCostmapView& costmap,
                      SearchEffort::Clock::time_point deadline) {
-  effort_.begin(deadline);
+  effort_.begin(deadline, request.stop);
   pool_.reset();
   open_.clear();
   partial_plan_.reset();
@@ -182,6 +187,7 @@ void Search::tryAction(const SearchState& from, const Successor& successor, doub
 /// A plan is in hand: from here on only cheaper ones count. It is taken for the optimum only when no open
 /// state has a smaller f, which is the goal test at expansion.
 void Search::acceptGoal(StateId id) {
+  if (best_goal_ == kNoState) first_plan_ = SearchEffort::Clock::now();
   effort_.planFound(best_goal_ == kNoState);
   best_goal_ = id;
   best_cost_ = pool_[id].g;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "cost_to_go.h"
@@ -63,6 +64,7 @@ class Search {
   std::vector<Successor> successors_;  // of the state being expanded
   StateId best_goal_ = kNoState;
   double best_cost_ = 0.0;
+  std::optional<SearchEffort::Clock::time_point> first_plan_;  // when a plan to the goal was first in hand
 };
 
 }  // namespace lattice_planner

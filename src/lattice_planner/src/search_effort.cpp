@@ -2,6 +2,7 @@
 #include "search_effort.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lattice_planner {
 namespace {
@@ -15,8 +16,9 @@ constexpr std::size_t kPatience = 16;  // times the work until then
 
 }  // namespace
 
-void SearchEffort::begin(Clock::time_point deadline) {
+void SearchEffort::begin(Clock::time_point deadline, std::function<bool()> stop) {
   deadline_ = deadline;
+  stop_ = std::move(stop);
   weight_ = params_.heuristic_weight;
   expansions_ = generated_ = enough_expansions_ = most_expansions_ = 0;
   hurry_at_ = static_cast<std::size_t>(params_.hurry_after);

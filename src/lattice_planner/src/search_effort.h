@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 
 #include "lattice_planner/planner_params.h"
 
@@ -15,14 +16,15 @@ class SearchEffort {
   using Clock = std::chrono::steady_clock;
   explicit SearchEffort(const PlannerParams& params) : params_(params) {}
 
-  void begin(Clock::time_point deadline);
+  /// `stop`: true ends the search before the deadline; empty: nothing does.
+  void begin(Clock::time_point deadline, std::function<bool()> stop);
   void countExpansion() { ++expansions_; }
   void countSuccessor() { ++generated_; }
   [[nodiscard]] std::size_t expansions() const { return expansions_; }
   [[nodiscard]] std::size_t generated() const { return generated_; }
   [[nodiscard]] double weight() const { return weight_; }
 
-  [[nodiscard]] bool beforeDeadline() const { return Clock::now() < deadline_; }
+  [[nodiscard]] bool beforeDeadline() const { return Clock::now() < deadline_ && !(stop_ && stop_()); }
   /// True when a limit is reached with this many states in memory.
   [[nodiscard]] bool spent(std::size_t states) const;
   /// True when as much was done after the first plan as improving it is worth.
@@ -40,6 +42,7 @@ class SearchEffort {
  private:
   const PlannerParams& params_;
   Clock::time_point deadline_;
+  std::function<bool()> stop_;
   double weight_ = 1.0;
   std::size_t expansions_ = 0;
   std::size_t generated_ = 0;          // successors looked at

@@ -39,10 +39,9 @@ std::optional<PlanStatus> SearchTask::refuse(const PlanRequest& wanted,
   if (costs.static_costs[costs.geometry.index(*start)] == sarn::kLethalObstacle) {
     return PlanStatus::kStartOccupied;
   }
-  if (cell_costs.forbidden_static[costs.static_costs[costs.geometry.index(*goal)]]) {
-    return PlanStatus::kGoalOccupied;
-  }
-  return std::nullopt;
+  const std::uint8_t at_goal = costs.static_costs[costs.geometry.index(*goal)];
+  if (!cell_costs.forbidden_static[at_goal]) return std::nullopt;
+  return at_goal == sarn::kNoInformation ? PlanStatus::kGoalUnknown : PlanStatus::kGoalOccupied;
 }
 
 void SearchTask::reset(const PlanRequest& wanted, const sarn::TimedCostmapView& costs) {

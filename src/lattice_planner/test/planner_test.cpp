@@ -28,7 +28,7 @@ TEST(LatticePlanner, namesEachBadRequest) {
   EXPECT_EQ(status(a, {1e300, 0.2, 0.0}), PlanStatus::kGoalOutsideMap);
   EXPECT_EQ(status({1.55, 0.25, 0.0}, a), PlanStatus::kStartOccupied);
   EXPECT_EQ(status(a, {1.55, 0.25, 0.0}), PlanStatus::kGoalOccupied);
-  EXPECT_EQ(status(a, {1.05, 0.15, 0.0}), PlanStatus::kGoalOccupied) << "unknown is forbidden by default";
+  EXPECT_EQ(status(a, {1.05, 0.15, 0.0}), PlanStatus::kGoalUnknown) << "unknown is forbidden by default";
   EXPECT_EQ(planner().plan(request(a, a, 0.0), world.view()).status, PlanStatus::kInvalidRequest);
   EXPECT_EQ(planner().plan(request(a, a, kNan), world.view()).status, PlanStatus::kInvalidRequest);
   sarn::TimedCostmapView broken = world.view();
@@ -51,6 +51,32 @@ TEST(LatticePlanner, entersUnknownOnlyWhenAllowed) {
   params.allow_unknown = true;
   LatticePlanner bold(params);
   EXPECT_EQ(bold.plan(task, world.view()).status, PlanStatus::kComplete);
+}
+
+TEST(LatticePlanner, endsWhenItIsToldTo) {
+  const World world = World::room(8.0, 8.0);
+  PlanRequest task = request({0.5, 0.5, 0.0}, {7.5, 7.5, 0.0});
+  const PlanResult whole = planner().plan(task, world.view());
+  ASSERT_EQ(whole.status, PlanStatus::kComplete);
+  ASSERT_GT(whole.expansions, 64U);
+  task.stop = [] { return true; };
+  const PlanResult told = planner().plan(task, world.view());
+  EXPECT_NE(told.status, PlanStatus::kComplete);
+  EXPECT_TRUE(told.timed_out);
+  EXPECT_LT(told.expansions, 32U);
+  int asked = 0;
+  task.stop = [&asked] { return ++asked > 1000000; };
+  EXPECT_EQ(planner().plan(task, world.view()).status, PlanStatus::kComplete) << "was not told to";
+  EXPECT_GT(asked, 0);
+}
+
+TEST(LatticePlanner, tellsWhenTheFirstPlanWasThere) {
+  const World world = World::room(4.0, 4.0);
+  const PlanResult found = planner().plan(request({0.5, 0.5, 0.0}, {3.5, 3.5, 0.0}), world.view());
+  ASSERT_EQ(found.status, PlanStatus::kComplete);
+  EXPECT_GT(found.first_plan_time, 0.0);
+  EXPECT_LE(found.first_plan_time, found.search_time);
+  EXPECT_EQ(planner().plan(request({0.5, 0.5, 0.0}, {9.0, 0.5, 0.0}), world.view()).first_plan_time, 0.0);
 }
 
 TEST(LatticePlanner, standsStillWhenItIsAtTheGoal) {

@@ -5,6 +5,7 @@
 #include <ompl/control/spaces/RealVectorControlSpace.h>
 
 #include <memory>
+#include <string>
 
 namespace lattice_planner_ompl {
 
@@ -17,17 +18,31 @@ LatticeAsOmpl::LatticeAsOmpl(const ob::SpaceInformationPtr& si, const Problem& p
   specs_.optimizingPaths = true;
   specs_.directed = true;
   declareParam<double>("time_limit", this, &LatticeAsOmpl::setTimeLimit, &LatticeAsOmpl::timeLimit,
-                       "0.01:10");
+                       "0.01:60");
+}
+
+void LatticeAsOmpl::clear() {
+  ob::Planner::clear();
+  first_solution_time_ = 0.0;
+}
+
+/// The lattice's states are not OMPL's: there is no roadmap to show, only how it went.
+void LatticeAsOmpl::getPlannerData(ob::PlannerData& data) const {
+  ob::Planner::getPlannerData(data);
+  data.properties["first solution time REAL"] = std::to_string(first_solution_time_);
 }
 
 ob::PlannerStatus LatticeAsOmpl::solve(const ob::PlannerTerminationCondition& condition) {
   checkValidity();
+  first_solution_time_ = 0.0;
   const auto* goal = dynamic_cast<const BrakingGoal*>(pdef_->getGoal().get());
   if (goal == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
   const ob::State* start = pis_.nextStart();
   if (start == nullptr) return ob::PlannerStatus::INVALID_START;
   if (condition) return ob::PlannerStatus::TIMEOUT;
-  const auto result = planner_.plan({pointOf(start), goal->pose(), time_limit_}, problem_.costs);
+  const auto result = planner_.plan(
+      {pointOf(start), goal->pose(), time_limit_, [&condition] { return condition(); }}, problem_.costs);
+  first_solution_time_ = result.first_plan_time;
   if (!lattice_planner::isDrivable(result.status)) return ob::PlannerStatus::TIMEOUT;
   auto path = std::make_shared<oc::PathControl>(si_);
   const auto* si = static_cast<const oc::SpaceInformation*>(si_.get());

@@ -7,6 +7,7 @@
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -68,8 +69,10 @@ PlanStatus refuse(const lattice_planner::PlanRequest& request, const Problem& pr
   if (!isFree(problem, s)) return PlanStatus::kStartOccupied;
   Problem alone = problem;
   alone.costs.layers.clear();
-  return isFree(alone, {g.x, g.y, g.theta, 0.0, 0.0, s.t}) ? PlanStatus::kComplete
-                                                           : PlanStatus::kGoalOccupied;
+  if (isFree(alone, {g.x, g.y, g.theta, 0.0, 0.0, s.t})) return PlanStatus::kComplete;
+  const auto goal = problem.costs.geometry.index(*problem.costs.geometry.cellAt(g.x, g.y));
+  return problem.costs.static_costs[goal] == sarn::kNoInformation ? PlanStatus::kGoalUnknown
+                                                                  : PlanStatus::kGoalOccupied;
 }
 
 }  // namespace

@@ -37,6 +37,16 @@ class OmplTest : public testing::Test {
   lattice_planner::PlanRequest request(double limit) const {
     return {{1.0, 2.0, 0.0, 0.0, 0.0, 0.0}, {5.0, 2.0, 0.0}, limit};
   }
+  /// The request in OMPL's words.
+  ompl::base::ProblemDefinitionPtr define(const ompl::control::SpaceInformationPtr& si) const {
+    auto definition = std::make_shared<ompl::base::ProblemDefinition>(si);
+    ompl::base::ScopedState<> start(si);
+    setState(start.get(), request(1.0).start);
+    definition->addStartState(start);
+    definition->setGoal(std::make_shared<BrakingGoal>(si, problem_, request(1.0).goal));
+    definition->setOptimizationObjective(std::make_shared<CostObjective>(si, problem_));
+    return definition;
+  }
   /// Ends standing in the goal, within the limits and nowhere forbidden at its time.
   void expectSound(const sarn::TimedTrajectory& trajectory, const sarn::Pose2D& goal) {
     const auto& points = trajectory.points;
@@ -92,6 +102,8 @@ TEST_F(OmplTest, refusesWhatTheLatticePlannerRefuses) {
   bad = request(0.1);
   walls_.at({50, 20}) = 254;
   EXPECT_EQ(planner.plan(bad, problem_.costs).status, PlanStatus::kGoalOccupied);
+  walls_.at({50, 20}) = 255;
+  EXPECT_EQ(planner.plan(bad, problem_.costs).status, PlanStatus::kGoalUnknown);
   walls_.at({10, 20}) = 254;
   EXPECT_EQ(planner.plan(bad, problem_.costs).status, PlanStatus::kStartOccupied);
   EXPECT_THROW((void)algorithmOf("prm"), std::invalid_argument);
@@ -100,12 +112,7 @@ TEST_F(OmplTest, refusesWhatTheLatticePlannerRefuses) {
 TEST_F(OmplTest, latticeIsAPlannerOfOmpl) {
   namespace ob = ompl::base;
   const auto si = makeSpaceInformation(problem_, -1e-6);
-  auto definition = std::make_shared<ob::ProblemDefinition>(si);
-  ob::ScopedState<> start(si);
-  setState(start.get(), request(1.0).start);
-  definition->addStartState(start);
-  definition->setGoal(std::make_shared<BrakingGoal>(si, problem_, request(1.0).goal));
-  definition->setOptimizationObjective(std::make_shared<CostObjective>(si, problem_));
+  const auto definition = define(si);
   LatticeAsOmpl planner(si, problem_);
   planner.setProblemDefinition(definition);
   planner.params().setParam("time_limit", "5");
@@ -128,6 +135,38 @@ TEST_F(OmplTest, latticeIsAPlannerOfOmpl) {
     EXPECT_NEAR(a.v, b.v, 1e-9) << i;
     EXPECT_NEAR(a.t, b.t, 1e-9) << i;
   }
+}
+
+TEST_F(OmplTest, latticeObeysOmplsTerminationCondition) {
+  namespace ob = ompl::base;
+  const auto si = makeSpaceInformation(problem_, -1e-6);
+  const auto solve = [&](const ob::PlannerTerminationCondition& condition, LatticeAsOmpl& planner) {
+    planner.setProblemDefinition(define(si));
+    planner.setup();
+    return planner.solve(condition);
+  };
+  LatticeAsOmpl planner(si, problem_);
+  int asked = 0;  // once before the search: this one ends it before its first expansion
+  EXPECT_NE(ob::PlannerStatus::EXACT_SOLUTION,
+            solve(ob::PlannerTerminationCondition([&asked] { return ++asked > 1; }), planner));
+  EXPECT_GT(asked, 1);
+  EXPECT_EQ(planner.firstSolutionTime(), 0.0);
+  EXPECT_EQ(ob::PlannerStatus::EXACT_SOLUTION, solve(ob::plannerNonTerminatingCondition(), planner));
+}
+
+TEST_F(OmplTest, latticeTellsOmplWhenItsFirstSolutionWasThere) {
+  namespace ob = ompl::base;
+  const auto si = makeSpaceInformation(problem_, -1e-6);
+  LatticeAsOmpl planner(si, problem_);
+  planner.setProblemDefinition(define(si));
+  planner.setup();
+  ASSERT_EQ(ob::PlannerStatus::EXACT_SOLUTION, planner.solve(ob::plannerNonTerminatingCondition()));
+  EXPECT_GT(planner.firstSolutionTime(), 0.0);
+  ob::PlannerData data(si);
+  planner.getPlannerData(data);
+  EXPECT_GT(std::stod(data.properties.at("first solution time REAL")), 0.0);
+  planner.clear();
+  EXPECT_EQ(planner.firstSolutionTime(), 0.0);
 }
 
 TEST_F(OmplTest, costOfAMotionIsThePlannersOwn) {

@@ -53,13 +53,19 @@ Navigator::Navigator(const NavigatorParams& params, const timed_path_follower::F
       worker_(std::move(plan)) {}
 
 std::string Navigator::setGoal(const sarn::Pose2D& goal, const NavigatorInput& input) {
+  const auto refuse = [this](PlanStatus status, std::string reason) {
+    status_.plan_status = status;
+    return reason;
+  };
   if (!std::isfinite(goal.x) || !std::isfinite(goal.y) || !std::isfinite(goal.theta))
-    return "goal is not finite";
+    return refuse(PlanStatus::kInvalidRequest, "goal is not finite");
   const auto cell = input.scene->geometry.cellAt(goal.x, goal.y);
-  if (!cell) return "goal " + at(goal) + " is outside the map";
+  if (!cell) return refuse(PlanStatus::kGoalOutsideMap, "goal " + at(goal) + " is outside the map");
   const std::uint8_t cost = input.scene->static_costs[input.scene->geometry.index(*cell)];
-  if (cost == sarn::kNoInformation) return "goal " + at(goal) + " is in unknown space";
-  if (cost >= sarn::kInscribedObstacle) return "goal " + at(goal) + " is in an obstacle or too near to one";
+  if (cost == sarn::kNoInformation)
+    return refuse(PlanStatus::kGoalUnknown, "goal " + at(goal) + " is in unknown space");
+  if (cost >= sarn::kInscribedObstacle)
+    return refuse(PlanStatus::kGoalOccupied, "goal " + at(goal) + " is in an obstacle or too near to one");
   goal_ = goal;
   goal_lengths_ = pathLengths(*input.scene, goal.position());
   recovery_.reset();
@@ -171,6 +177,7 @@ void Navigator::adoptResult(const NavigatorInput& input) {
   if (!result) return;
   status_.planning_time = result->search_time;
   status_.expansions = result->expansions;
+  status_.bound = result->bound;
   if (result->timed_out) ++status_.deadline_misses;
   if (submitted_task_ != task_ || (!goal_ && !yield_))
     return;  // made for another goal or from a dropped plan

@@ -5,10 +5,21 @@
 
 namespace sarn_navigation {
 
+std::optional<Health> SearchHealth::judge(const SearchFigures& figures) {
+  const bool missed = figures.deadline_misses > deadline_misses_;
+  deadline_misses_ = figures.deadline_misses;  // a new goal starts from 0
+  if (figures.plan_age > allowed_age_) return Health{HealthLevel::kWarn, "drives an old plan"};
+  if (missed) return Health{HealthLevel::kWarn, "searches reach their time limit"};
+  return std::nullopt;
+}
+
+SearchFigures figuresOf(const NavigatorStatus& status, double plan_age) {
+  return {status.planning_time, status.expansions, status.bound, status.deadline_misses, plan_age};
+}
+
 Health PlanningHealth::judge(const NavigatorStatus& status, double plan_age,
                              const std::string& input_problem) {
-  const bool missed = status.deadline_misses > deadline_misses_;
-  deadline_misses_ = status.deadline_misses;  // a new goal starts from 0
+  std::optional<Health> searches = searches_.judge(figuresOf(status, plan_age));
   if (!input_problem.empty()) return {HealthLevel::kError, input_problem};
   switch (status.state) {
     case NavigatorState::kIdle:
@@ -22,8 +33,7 @@ Health PlanningHealth::judge(const NavigatorStatus& status, double plan_age,
     default:
       break;
   }
-  if (plan_age > allowed_age_) return {HealthLevel::kWarn, "drives an old plan"};
-  if (missed) return {HealthLevel::kWarn, "searches reach their time limit"};
+  if (searches) return *std::move(searches);
   return {HealthLevel::kOk, status.reason.empty() ? "plans" : status.reason};
 }
 

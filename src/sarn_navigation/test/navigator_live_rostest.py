@@ -137,6 +137,7 @@ class LiveTest(unittest.TestCase):
         self.assertGreater(float(values["planning time [s]"]), 0.0)
         self.assertLess(float(values["plan age [s]"]), 3.0)
         self.assertIn("deadline misses", values)
+        self.assertGreaterEqual(float(values["cost over optimum at most"]), 1.0)
         self.world.tf_on = False
         self.assertTrue(
             self.run_with_person(10.0, lambda: planning()["level"] == "2"), "an error without pose"

@@ -86,10 +86,15 @@ TEST(Navigator, drivesToItsGoalAndStops) {
 TEST(Navigator, refusesGoalsThatCannotBeReachedAndSaysWhy) {
   DrawnScene scene({".....", "..#?.", "....."});
   Drive drive(scene, {0.1, 0.1, 0.0});
-  EXPECT_NE(drive.setGoal({9.0, 0.0, 0.0}).find("outside the map"), std::string::npos);
-  EXPECT_NE(drive.setGoal({0.6, 0.4, 0.0}).find("in an obstacle"), std::string::npos);
-  EXPECT_NE(drive.setGoal({0.9, 0.4, 0.0}).find("unknown space"), std::string::npos);
-  EXPECT_NE(drive.setGoal({std::nan(""), 0.4, 0.0}).find("not finite"), std::string::npos);
+  const auto expectRefused = [&drive](const sarn::Pose2D& goal, const char* why,
+                                      lattice_planner::PlanStatus status) {
+    EXPECT_NE(drive.setGoal(goal).find(why), std::string::npos) << why;
+    EXPECT_EQ(drive.navigator().status().plan_status, status) << why;
+  };
+  expectRefused({9.0, 0.0, 0.0}, "outside the map", lattice_planner::PlanStatus::kGoalOutsideMap);
+  expectRefused({0.6, 0.4, 0.0}, "in an obstacle", lattice_planner::PlanStatus::kGoalOccupied);
+  expectRefused({0.9, 0.4, 0.0}, "unknown space", lattice_planner::PlanStatus::kGoalUnknown);
+  expectRefused({std::nan(""), 0.4, 0.0}, "not finite", lattice_planner::PlanStatus::kInvalidRequest);
   EXPECT_FALSE(drive.navigator().hasGoal());
 }
 

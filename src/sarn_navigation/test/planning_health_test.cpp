@@ -33,6 +33,30 @@ TEST(PlanningHealth, onlyNewDeadlineMissesAreAWarning) {
   EXPECT_EQ(health.judge(status(NavigatorState::kDriving, 1), 0.4, "").level, HealthLevel::kWarn);
 }
 
+TEST(PlanningHealth, figuresAreThoseOfTheLastSearch) {
+  NavigatorStatus driving = status(NavigatorState::kDriving, 2);
+  driving.planning_time = 0.02;
+  driving.expansions = 300;
+  driving.bound = 1.1;
+  const SearchFigures figures = figuresOf(driving, 0.4);
+  EXPECT_EQ(figures.planning_time, 0.02);
+  EXPECT_EQ(figures.expansions, 300U);
+  EXPECT_EQ(figures.bound, 1.1);
+  EXPECT_EQ(figures.deadline_misses, 2U);
+  EXPECT_EQ(figures.plan_age, 0.4);
+}
+
+TEST(SearchHealth, saysNothingWhileAllIsWell) {
+  SearchHealth health(2.5);
+  SearchFigures figures;
+  EXPECT_FALSE(health.judge(figures));
+  figures.deadline_misses = 1;
+  EXPECT_EQ(health.judge(figures)->level, HealthLevel::kWarn);
+  EXPECT_FALSE(health.judge(figures)) << "no new miss";
+  figures.plan_age = 2.6;
+  EXPECT_EQ(health.judge(figures)->level, HealthLevel::kWarn);
+}
+
 TEST(PlanningHealth, missingInputIsAnErrorThatSaysWhat) {
   PlanningHealth health(2.5);
   const Health judged = health.judge(status(NavigatorState::kDriving), 0.4, "no tf");

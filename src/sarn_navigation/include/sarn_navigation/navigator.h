@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,7 +50,9 @@ struct NavigatorStatus {
   lattice_planner::PlanStatus plan_status = lattice_planner::PlanStatus::kComplete;
   double planning_time = 0.0;  // [s] wall time of the last search
   double plan_stamp = 0.0;     // [s] when a search last gave a plan
-  std::size_t expansions = 0;
+  std::size_t expansions = 0;  // of the last search
+  double bound =
+      std::numeric_limits<double>::infinity();  // cost of its plan <= bound * optimum; infinite: none
   unsigned deadline_misses = 0;  // searches since the goal was set that reached their time limit
   unsigned people_near = 0;
 };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "sarn_navigation/navigator.h"
@@ -15,11 +18,35 @@ struct Health {
   std::string summary;  // one line
 };
 
-/// How planning goes, for somebody who looks at the robot from afar.
-class PlanningHealth {
+/// What searches did, whoever asks for them: the navigator, or move_base.
+struct SearchFigures {
+  double planning_time = 0.0;  // [s] wall time of the last search
+  std::size_t expansions = 0;  // of the last search
+  double bound =
+      std::numeric_limits<double>::infinity();  // cost of its plan <= bound * optimum; infinite: none
+  unsigned deadline_misses = 0;  // searches since the goal was set that reached their time limit
+  double plan_age = -1.0;        // [s] since a search last gave a plan; negative: no plan is driven
+};
+
+/// How searches go.
+class SearchHealth {
  public:
   /// `allowed_age` [s]: a plan that is driven while no search has given one for longer is stale.
-  explicit PlanningHealth(double allowed_age) : allowed_age_(allowed_age) {}
+  explicit SearchHealth(double allowed_age) : allowed_age_(allowed_age) {}
+
+  /// Judges the time since the last call. Nothing: all is well.
+  [[nodiscard]] std::optional<Health> judge(const SearchFigures& figures);
+
+ private:
+  double allowed_age_;
+  unsigned deadline_misses_ = 0;
+};
+
+/// How the navigator's planning goes, for somebody who looks at the robot from afar.
+class PlanningHealth {
+ public:
+  /// `allowed_age` [s] as SearchHealth's.
+  explicit PlanningHealth(double allowed_age) : searches_(allowed_age) {}
 
   /// Judges the time since the last call. `plan_age` [s], negative: no plan is driven. `input_problem`: why
   /// the robot cannot be controlled at all; empty: it can.
@@ -27,8 +54,9 @@ class PlanningHealth {
                              const std::string& input_problem);
 
  private:
-  double allowed_age_;
-  unsigned deadline_misses_ = 0;
+  SearchHealth searches_;
 };
+
+[[nodiscard]] SearchFigures figuresOf(const NavigatorStatus& status, double plan_age);
 
 }  // namespace sarn_navigation

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sarn_navigation_ros/navigator_diagnostics.h"
 
+#include "sarn_navigation_ros/search_diagnostics.h"
+
 namespace sarn_navigation {
 
 NavigatorDiagnostics::NavigatorDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh,
@@ -19,12 +21,8 @@ void NavigatorDiagnostics::update(const NavigatorStatus& status, double plan_age
 }
 
 void NavigatorDiagnostics::fill(diagnostic_updater::DiagnosticStatusWrapper& message) {
-  const Health health = health_.judge(status_, plan_age_, input_problem_);
-  message.summary(static_cast<unsigned char>(health.level), health.summary);
-  message.add("planning time [s]", status_.planning_time);
-  message.add("expansions", status_.expansions);
-  if (plan_age_ >= 0.0) message.add("plan age [s]", plan_age_);
-  message.add("deadline misses", status_.deadline_misses);
+  summarize(health_.judge(status_, plan_age_, input_problem_), message);
+  addFigures(figuresOf(status_, plan_age_), message);
   message.add("people near", status_.people_near);
   if (status_.distance_to_goal >= 0.0) message.add("distance to goal [m]", status_.distance_to_goal);
 }

@@ -27,9 +27,22 @@ std::uint8_t toMessage(lattice_planner::PlanStatus status) {
       return sarn_msgs::TimedTrajectory::GOAL_ANY_POSE;
     case lattice_planner::PlanStatus::kPartial:
       return sarn_msgs::TimedTrajectory::PARTIAL;
-    default:
+    case lattice_planner::PlanStatus::kNoPath:
       return sarn_msgs::TimedTrajectory::STANDSTILL;
+    case lattice_planner::PlanStatus::kStartOccupied:
+      return sarn_msgs::TimedTrajectory::START_OCCUPIED;
+    case lattice_planner::PlanStatus::kGoalOccupied:
+      return sarn_msgs::TimedTrajectory::GOAL_OCCUPIED;
+    case lattice_planner::PlanStatus::kGoalUnknown:
+      return sarn_msgs::TimedTrajectory::GOAL_UNKNOWN;
+    case lattice_planner::PlanStatus::kGoalOutsideMap:
+      return sarn_msgs::TimedTrajectory::GOAL_OUTSIDE_MAP;
+    case lattice_planner::PlanStatus::kStartOutsideMap:
+      return sarn_msgs::TimedTrajectory::START_OUTSIDE_MAP;
+    case lattice_planner::PlanStatus::kInvalidRequest:
+      return sarn_msgs::TimedTrajectory::INVALID_REQUEST;
   }
+  return sarn_msgs::TimedTrajectory::INVALID_REQUEST;
 }
 
 sarn_msgs::NavigationStatus toMessage(const NavigatorStatus& status, const std::string& frame,
