@@ -25,6 +25,10 @@ const ContinuationParams& checked(const ContinuationParams& params) {
   return params;
 }
 
+bool goalIsTaken(PlanStatus status) {
+  return status == PlanStatus::kGoalOccupied || status == PlanStatus::kGoalUnknown;
+}
+
 bool same(const sarn::Pose2D& a, const sarn::Pose2D& b) {
   return (a.position() - b.position()).norm() < kSameGoal &&
          std::abs(sarn::angleDifference(a.theta, b.theta)) < kSameGoal;
@@ -93,12 +97,18 @@ bool PlanContinuation::keepsLast(const ContinuationRequest& request, const PlanR
 
 ContinuedPlan PlanContinuation::search(const sarn::TrajectoryPoint& start, const ContinuationRequest& request,
                                        const sarn::TimedCostmapView& costs) {
-  ContinuedPlan plan{planner_.plan({start, request.goal, params_.planning_timeout}, costs), request.goal};
+  const auto searchTo = [&](const sarn::Pose2D& goal) {
+    ContinuedPlan plan{planner_.plan({start, goal, params_.planning_timeout, request.stop}, costs), goal};
+    const PlanResult& r = plan.result;
+    plan.search = SearchReport{r.search_time, r.expansions, r.bound, r.timed_out,
+                               lattice_planner::isDrivable(r.status) && !r.trajectory.empty()};
+    return plan;
+  };
+  ContinuedPlan plan = searchTo(request.goal);
   const double tolerance = std::max(request.tolerance, params_.default_tolerance);
-  if (plan.result.status != PlanStatus::kGoalOccupied || tolerance <= 0.0) return plan;
+  if (!goalIsTaken(plan.result.status) || tolerance <= 0.0) return plan;
   const auto free = nearestFree(costs, request.goal, tolerance, planner_.params().forbidden_cost);
-  if (!free) return plan;
-  return {planner_.plan({start, *free, params_.planning_timeout}, costs), *free};
+  return free ? searchTo(*free) : plan;
 }
 
 ContinuedPlan PlanContinuation::plan(const ContinuationRequest& request,
@@ -109,7 +119,8 @@ ContinuedPlan PlanContinuation::plan(const ContinuationRequest& request,
   if (last_) {
     const double to_its_end = last_->plan.result.trajectory.endTime() - request.now;
     const double arriving = std::max(params_.arrival_time, params_.release_delay);
-    if (std::abs(to_its_end) < arriving && leadsToGoal(request, costs)) return last_->plan;
+    if (std::abs(to_its_end) < arriving && leadsToGoal(request, costs))
+      return {last_->plan.result, last_->plan.goal};
   }
   sarn::TimedTrajectory committed;
   if (last_) committed = lattice_planner::commit(last_->plan.result.trajectory, request.now, release);
@@ -118,7 +129,9 @@ ContinuedPlan PlanContinuation::plan(const ContinuationRequest& request,
                                           ? sarn::TrajectoryPoint{p.x, p.y, p.theta, 0.0, 0.0, release}
                                           : committed.points.back();
   ContinuedPlan plan = search(start, request, costs);
-  if (!committed.empty() && keepsLast(request, plan.result, costs)) return last_->plan;
+  if (!committed.empty() && keepsLast(request, plan.result, costs)) {
+    return {last_->plan.result, last_->plan.goal, plan.search};
+  }
   if (!lattice_planner::isDrivable(plan.result.status) || plan.result.trajectory.empty()) return plan;
   plan.result.trajectory = lattice_planner::join(committed, plan.result.trajectory);
   last_ = Last{plan, request.goal};

@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lattice planner as move_base and move_base_flex use it.
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <atomic>
+#include <thread>
+
 #include "plugins_fixture.h"
+#include "sarn_move_base/outcomes.h"
 
 namespace sarn_move_base_test {
 namespace {
-
-double distanceToPlan(const Poses& plan, const sarn::Person& person) {
-  double nearest = 1e9;
-  for (const auto& pose : plan) {
-    const double ahead = std::max(0.0, pose.header.stamp.toSec() - kNow);
-    const Eigen::Vector2d where = person.position + ahead * person.velocity;
-    if (pose.header.stamp.isZero()) continue;  // the goal
-    nearest =
-        std::min(nearest, std::hypot(pose.pose.position.x - where.x(), pose.pose.position.y - where.y()));
-  }
-  return nearest;
-}
 
 TEST_F(Plugins, plannerStampsEachPoseAndAppendsTheGoal) {
   const auto planner = makePlanner();
@@ -52,29 +46,6 @@ TEST_F(Plugins, plannerKnowsThatPeopleMove) {
   ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), plan));
   for (const auto& pose : plan) EXPECT_NEAR(pose.pose.position.y, 3.0, 0.2);
   EXPECT_GT(distanceToPlan(plan, leaves), 0.5);
-}
-
-TEST_F(Plugins, plannerWeightsAreTunedLive) {
-  const auto planner = makePlanner();
-  tell({kStanding});
-  const auto plannedDistance = [&](double x) {
-    Poses plan;
-    EXPECT_TRUE(planner->makePlan(stamped({x, 3.0, 0.0}), stamped({8.5, 3.0, 0.0}), plan));
-    return distanceToPlan(plan, kStanding);
-  };
-  tune("~/LatticePlanner", "social_weight", 0.0);
-  double x = 1.0;  // another start each time: nothing of the last plan is kept
-  const auto await = [&](const auto& condition) {
-    for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(20.0);
-         ros::WallTime::now() < end;) {
-      if (condition(plannedDistance(x = x > 2.4 ? 1.0 : x + 0.7))) return true;
-    }
-    return false;
-  };
-  EXPECT_TRUE(await([](double distance) { return distance < 0.65; })) << "nobody minds";
-  tune("~/LatticePlanner", "social_weight", 200.0);
-  EXPECT_TRUE(await([](double distance) { return distance > 0.9; }));
-  tune("~/LatticePlanner", "social_weight", 8.0);
 }
 
 TEST_F(Plugins, plannerGoesRoundWalls) {
@@ -148,26 +119,31 @@ TEST_F(Plugins, planningChangesNoCostAndTheCostmapOutlivesItsPlugins) {
 // A plan is told to whoever asks for it; nobody's maps, clouds or heuristics are drawn for it, and what it
 // listens to was subscribed to once.
 TEST_F(Plugins, planningDrawsNoMapsAndSubscribesToNothingAnew) {
-  const auto planner = makePlanner();
-  tell({kStanding});
+  const auto advertised = [] {
+    ros::V_string topics;
+    ros::this_node::getAdvertisedTopics(topics);
+    return std::set<std::string>(topics.begin(), topics.end());
+  };
   const auto subscribed = [] {
     ros::V_string topics;
     ros::this_node::getSubscribedTopics(topics);
     return std::set<std::string>(topics.begin(), topics.end());
   };
+  const auto of_others = advertised();  // a costmap of its own accord publishes its grid
+  const auto planner = makePlanner();
+  tell({kStanding});
   const auto before = subscribed();
   for (int i = 0; i < 3; ++i) {
     Poses plan;
     ASSERT_TRUE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0 + 0.2 * i, 0.0}), plan));
   }
   EXPECT_EQ(subscribed(), before);
-  ros::V_string advertised;
-  ros::this_node::getAdvertisedTopics(advertised);
+  const auto ours = advertised();
   ros::master::V_TopicInfo topics;
   ASSERT_TRUE(ros::master::getTopics(topics));
   int plans = 0;
   for (const auto& topic : topics) {
-    if (std::find(advertised.begin(), advertised.end(), topic.name) == advertised.end()) continue;
+    if (ours.count(topic.name) == 0 || of_others.count(topic.name) > 0) continue;
     EXPECT_NE(topic.datatype, "nav_msgs/OccupancyGrid") << topic.name;
     EXPECT_NE(topic.datatype, "sensor_msgs/PointCloud2") << topic.name;
     plans += topic.datatype == "nav_msgs/Path" ? 1 : 0;
@@ -194,24 +170,91 @@ TEST_F(Plugins, misspeltPlannerDoesNotPlan) {
   EXPECT_FALSE(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({6.0, 3.0, 0.0}), plan));
 }
 
+TEST_F(Plugins, goalOfAnotherFrameIsBroughtToTheCostmaps) {
+  const auto planner = makePlanner();
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  broadcaster.sendTransform(transform("map", "shop", {2.0, 1.0, 1.5}, now()));
+  const auto start = stamped({1.0, 3.0, 0.0});
+  Poses plan;
+  bool planned = false;
+  for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(20.0);
+       !planned && ros::WallTime::now() < end;) {  // until the plug-in's listener has heard of it
+    planned = planner->makePlan(start, stamped({2.0, -1.0, 0.3}, "shop"), plan);
+  }
+  ASSERT_TRUE(planned);
+  const sarn::Pose2D goal = sarn::Pose2D{2.0, 1.0, 1.5} * sarn::Pose2D{2.0, -1.0, 0.3};
+  EXPECT_EQ(plan.back().header.frame_id, "map");
+  EXPECT_NEAR(plan.back().pose.position.x, goal.x, 1e-6);
+  EXPECT_NEAR(plan.back().pose.position.y, goal.y, 1e-6);
+  EXPECT_FALSE(planner->makePlan(start, stamped({2.0, 0.0, 0.3}, "nowhere"), plan));
+  EXPECT_FALSE(planner->makePlan(start, stamped({2.0, 0.0, 0.3}, ""), plan));
+}
+
+#ifdef SARN_HAVE_MBF
 TEST_F(Plugins, flexiblePlannerSaysWhy) {
+  using Result = mbf_msgs::GetPathResult;
   walls_->add(7.5, 2.5, 8.5, 3.5);
+  walls_->addUnknown(7.0, 4.5, 9.0, 5.8);
   costmap_->updateMap();
   pluginlib::ClassLoader<mbf_costmap_core::CostmapPlanner> loader("mbf_costmap_core",
                                                                   "mbf_costmap_core::CostmapPlanner");
   const auto planner = loader.createInstance("sarn_move_base/LatticePlanner");
   Poses plan;
+  const auto start = stamped({1.0, 3.0, 0.0});
+  const auto outcome = [&](const geometry_msgs::PoseStamped& from, const geometry_msgs::PoseStamped& goal,
+                           double tolerance = 0.0) {
+    double cost = 0.0;
+    std::string message;
+    const std::uint32_t code = planner->makePlan(from, goal, tolerance, plan, cost, message);
+    EXPECT_EQ(code == Result::SUCCESS, message.empty()) << message;
+    EXPECT_EQ(code == Result::SUCCESS, !plan.empty());
+    return code;
+  };
+  const auto blocked = stamped({8.0, 3.0, 0.0});
+  EXPECT_EQ(outcome(start, blocked), Result::NOT_INITIALIZED);
+  planner->initialize("LatticePlanner", costmap_.get());
+  const std::uint32_t of_blocked = outcome(start, blocked);
+  EXPECT_EQ(of_blocked, sarn_move_base::codeOf<Result>(sarn_move_base::PlannerOutcome::kBlockedGoal));
+  const std::uint32_t of_unknown = outcome(start, stamped({8.0, 5.2, 0.0}));
+  EXPECT_EQ(of_unknown, sarn_move_base::kUnknownGoalCode);
+  EXPECT_NE(of_unknown, of_blocked);
+  EXPECT_EQ(outcome(blocked, start),
+            sarn_move_base::codeOf<Result>(sarn_move_base::PlannerOutcome::kBlockedStart));
+  EXPECT_EQ(outcome(start, stamped({80.0, 3.0, 0.0})), Result::OUT_OF_MAP);
+  EXPECT_EQ(outcome(start, stamped({6.0, 3.0, 0.0}, "nowhere")), Result::TF_ERROR);
+  EXPECT_EQ(outcome(start, stamped({std::nan(""), 3.0, 0.0})), Result::INVALID_GOAL);
+  EXPECT_EQ(outcome(stamped({std::nan(""), 3.0, 0.0}), start), Result::INVALID_START);
+  EXPECT_EQ(outcome(start, blocked, 1.0), Result::SUCCESS) << "the nearest free place";
+}
+
+TEST_F(Plugins, canceledFlexiblePlannerGivesUpItsSearchAndMayPlanAgain) {
+  using Result = mbf_msgs::GetPathResult;
+  costmap_->updateMap();
+  pluginlib::ClassLoader<mbf_costmap_core::CostmapPlanner> loader("mbf_costmap_core",
+                                                                  "mbf_costmap_core::CostmapPlanner");
+  const auto planner = loader.createInstance("sarn_move_base/LatticePlanner");
+  planner->initialize("LatticePlanner", costmap_.get());
+  std::atomic<bool> done{false};
+  std::thread impatient([&] {  // a search begins uncanceled: cancels until one has heard it
+    while (!done) EXPECT_TRUE(planner->cancel());
+  });
+  Poses plan;
   double cost = 0.0;
   std::string message;
-  const auto start = stamped({1.0, 3.0, 0.0});
-  const auto goal = stamped({8.0, 3.0, 0.0});
-  EXPECT_EQ(planner->makePlan(start, goal, 0.0, plan, cost, message), 60U) << "not initialized";
-  planner->initialize("LatticePlanner", costmap_.get());
-  EXPECT_EQ(planner->makePlan(start, goal, 0.0, plan, cost, message), 55U) << "blocked goal";
-  EXPECT_FALSE(message.empty());
-  EXPECT_EQ(planner->makePlan(start, goal, 1.0, plan, cost, message), 0U) << message;
-  EXPECT_FALSE(plan.empty());
+  std::uint32_t canceled = Result::SUCCESS;
+  for (int i = 0; i < 1000 && canceled == Result::SUCCESS; ++i) {
+    canceled =
+        planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0}), 0.0, plan, cost, message);
+  }
+  done = true;
+  impatient.join();
+  EXPECT_EQ(canceled, Result::CANCELED) << message;
+  EXPECT_TRUE(plan.empty());
+  EXPECT_EQ(planner->makePlan(stamped({1.0, 3.0, 0.0}), stamped({5.0, 3.0, 0.0}), 0.0, plan, cost, message),
+            Result::SUCCESS)
+      << message;
 }
+#endif
 
 }  // namespace
 }  // namespace sarn_move_base_test

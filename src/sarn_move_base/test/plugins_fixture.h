@@ -6,8 +6,6 @@
 #include <dynamic_reconfigure/Config.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
-#include <mbf_costmap_core/costmap_controller.h>
-#include <mbf_costmap_core/costmap_planner.h>
 #include <nav_core/base_global_planner.h>
 #include <nav_core/base_local_planner.h>
 #include <people_msgs/People.h>
@@ -17,10 +15,12 @@
 #include <pluginlib/class_loader.hpp>
 
 #include <algorithm>
+#include <array>
 #include <boost/make_shared.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -31,6 +31,13 @@
 #include "sarn_common/pose2d.h"
 #include "sarn_common_ros/call_service.h"
 #include "sarn_common_ros/conversions.h"
+
+#ifdef SARN_HAVE_MBF
+#include <mbf_costmap_core/costmap_controller.h>
+#include <mbf_costmap_core/costmap_planner.h>
+#include <mbf_msgs/ExePathResult.h>
+#include <mbf_msgs/GetPathResult.h>
+#endif
 
 /// What the tests of the plug-ins share: costmap, walls, tf, people; the test is the clock and the robot.
 namespace sarn_move_base_test {
@@ -47,6 +54,10 @@ class Walls : public costmap_2d::Layer {
     boxes_.push_back({x0, y0, x1, y1});
     new_ = true;
   }
+  void addUnknown(double x0, double y0, double x1, double y1) {
+    unknown_.push_back({x0, y0, x1, y1});
+    new_ = true;
+  }
   void matchSize() override { new_ = true; }
   void updateBounds(double, double, double, double* min_x, double* min_y, double* max_x,
                     double* max_y) override {
@@ -60,10 +71,8 @@ class Walls : public costmap_2d::Layer {
         double x = 0.0;
         double y = 0.0;
         master.mapToWorld(static_cast<unsigned>(i), static_cast<unsigned>(j), x, y);
-        const bool wall = std::any_of(boxes_.begin(), boxes_.end(), [&](const auto& b) {
-          return x > b[0] && x < b[2] && y > b[1] && y < b[3];
-        });
-        if (wall) master.setCost(static_cast<unsigned>(i), static_cast<unsigned>(j), 254);
+        if (inside(unknown_, x, y)) master.setCost(static_cast<unsigned>(i), static_cast<unsigned>(j), 255);
+        if (inside(boxes_, x, y)) master.setCost(static_cast<unsigned>(i), static_cast<unsigned>(j), 254);
       }
     }
   }
@@ -72,7 +81,13 @@ class Walls : public costmap_2d::Layer {
   void onInitialize() override { current_ = enabled_ = true; }
 
  private:
-  std::vector<std::array<double, 4>> boxes_;
+  using Boxes = std::vector<std::array<double, 4>>;  // [m] x0, y0, x1, y1
+  [[nodiscard]] static bool inside(const Boxes& boxes, double x, double y) {
+    return std::any_of(boxes.begin(), boxes.end(),
+                       [x, y](const auto& b) { return x > b[0] && x < b[2] && y > b[1] && y < b[3]; });
+  }
+  Boxes boxes_;
+  Boxes unknown_;
   bool new_ = true;
 };
 
@@ -106,10 +121,15 @@ class Plugins : public testing::Test {
     people_ = nh_.advertise<people_msgs::People>("people", 1);
   }
   [[nodiscard]] static double now() { return ros::Time::now().toSec(); }
-  static void setTime(double t) { ros::Time::setNow(ros::Time(t)); }
+  /// The robot stays where it is, and tf knows.
+  void setTime(double t) {
+    ros::Time::setNow(ros::Time(t));
+    place(robot_);
+  }
 
   /// The robot stands there, seen through an odometry frame that is turned against the map.
   void place(const sarn::Pose2D& robot) {
+    robot_ = robot;
     const sarn::Pose2D map_from_odom{0.5, -0.2, 0.3};
     tf_.setTransform(transform("map", "odom", map_from_odom, now()), "test");
     tf_.setTransform(transform("odom", "base_footprint", sarn::inverse(map_from_odom) * robot, now()),
@@ -178,6 +198,7 @@ class Plugins : public testing::Test {
 
   ros::NodeHandle nh_;
   tf2_ros::Buffer tf_;
+  sarn::Pose2D robot_;  // in map
   pluginlib::ClassLoader<costmap_2d::Layer> layers_{"costmap_2d", "costmap_2d::Layer"};
   pluginlib::ClassLoader<nav_core::BaseGlobalPlanner> planners_{"nav_core", "nav_core::BaseGlobalPlanner"};
   pluginlib::ClassLoader<nav_core::BaseLocalPlanner> followers_{"nav_core", "nav_core::BaseLocalPlanner"};
@@ -188,6 +209,19 @@ class Plugins : public testing::Test {
 };
 
 inline const sarn::Person kStanding{"anna", "", {5.0, 3.0}, {0.0, 0.0}, 1.0};
+
+/// [m] between a person who walks on and the robot that follows the plan in its time.
+inline double distanceToPlan(const Poses& plan, const sarn::Person& person) {
+  double nearest = 1e9;
+  for (const auto& pose : plan) {
+    const double ahead = std::max(0.0, pose.header.stamp.toSec() - kNow);
+    const Eigen::Vector2d where = person.position + ahead * person.velocity;
+    if (pose.header.stamp.isZero()) continue;  // the goal
+    nearest =
+        std::min(nearest, std::hypot(pose.pose.position.x - where.x(), pose.pose.position.y - where.y()));
+  }
+  return nearest;
+}
 
 /// What rqt_reconfigure does.
 inline void tune(const std::string& server, const dynamic_reconfigure::Config& config) {

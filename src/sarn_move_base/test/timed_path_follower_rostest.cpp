@@ -139,7 +139,7 @@ TEST_F(Following, staleOrMissingPoseGivesNoCommand) {
   EXPECT_FALSE(follower->computeVelocityCommands(command)) << "no plan";
   ASSERT_TRUE(follower->setPlan({stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0})}));
   EXPECT_TRUE(follower->computeVelocityCommands(command));
-  setTime(kNow + 2.0);
+  ros::Time::setNow(ros::Time(kNow + 2.0));
   EXPECT_FALSE(follower->computeVelocityCommands(command)) << "the pose is 2 s old";
   EXPECT_EQ(command.linear.x, 0.0);
   EXPECT_EQ(command.angular.z, 0.0);
@@ -171,6 +171,7 @@ TEST_F(Following, misspeltFollowerDoesNotDrive) {
   EXPECT_FALSE(follower->computeVelocityCommands(command));
 }
 
+#ifdef SARN_HAVE_MBF
 TEST_F(Following, canceledFlexibleFollowerStopsSmoothly) {
   pluginlib::ClassLoader<mbf_costmap_core::CostmapController> loader("mbf_costmap_core",
                                                                      "mbf_costmap_core::CostmapController");
@@ -192,12 +193,42 @@ TEST_F(Following, canceledFlexibleFollowerStopsSmoothly) {
     setTime(now() + 0.05);
     place(robot);
   }
-  EXPECT_EQ(outcome, 101U) << "canceled";
+  EXPECT_EQ(outcome, mbf_msgs::ExePathResult::CANCELED);
   EXPECT_GT(speeds[39], 0.3);
   for (std::size_t i = 40; i < speeds.size(); ++i)
     EXPECT_LE(std::abs(speeds[i] - speeds[i - 1]), 0.05 + 1e-9);
   EXPECT_EQ(speeds.back(), 0.0);
 }
+
+TEST_F(Following, flexibleFollowerSaysWhyInTheNumbersOfItsMessages) {
+  using Result = mbf_msgs::ExePathResult;
+  pluginlib::ClassLoader<mbf_costmap_core::CostmapController> loader("mbf_costmap_core",
+                                                                     "mbf_costmap_core::CostmapController");
+  const auto follower = loader.createInstance("sarn_move_base/TimedPathFollower");
+  const auto outcome = [&follower] {
+    geometry_msgs::TwistStamped command;
+    std::string message;
+    const std::uint32_t code = follower->computeVelocityCommands({}, {}, command, message);
+    EXPECT_EQ(code == Result::SUCCESS, message.empty()) << message;
+    if (code != Result::SUCCESS) {
+      EXPECT_EQ(command.twist.linear.x, 0.0);
+    }
+    return code;
+  };
+  EXPECT_EQ(outcome(), Result::NOT_INITIALIZED);
+  follower->initialize("TimedPathFollower", &tf_, local_.get());
+  EXPECT_EQ(outcome(), Result::INVALID_PATH) << "no plan";
+  ASSERT_TRUE(follower->setPlan({stamped({1.0, 3.0, 0.0}), stamped({8.0, 3.0, 0.0})}));
+  EXPECT_EQ(outcome(), Result::SUCCESS);
+  ros::Time::setNow(ros::Time(kNow + 2.0));
+  EXPECT_EQ(outcome(), Result::TF_ERROR) << "the pose is 2 s old";
+  EXPECT_TRUE(follower->cancel());
+  EXPECT_EQ(outcome(), Result::CANCELED) << "which is what is waited for, pose or no pose";
+  setTime(kNow + 2.0);
+  ASSERT_TRUE(follower->setPlan({stamped({1.0, 4.0, 0.0}), stamped({8.0, 4.0, 0.0})}));
+  EXPECT_EQ(outcome(), Result::MISSED_PATH);
+}
+#endif
 
 }  // namespace
 }  // namespace sarn_move_base_test

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -44,13 +47,24 @@ struct ContinuationParams {
 struct ContinuationRequest {
   sarn::Pose2D robot;
   sarn::Pose2D goal;
-  double now = 0.0;        // [s] same clock as the costs' layers
-  double tolerance = 0.0;  // [m] an occupied goal moves to a free place within it
+  double now = 0.0;                 // [s] same clock as the costs' layers
+  double tolerance = 0.0;           // [m] an occupied goal moves to a free place within it
+  std::function<bool()> stop = {};  // asked during the search: true ends it
+};
+
+/// One search, whether its plan was taken or the last one kept.
+struct SearchReport {
+  double time = 0.0;  // [s] wall time
+  std::size_t expansions = 0;
+  double bound = std::numeric_limits<double>::infinity();  // cost of its plan <= bound * optimum
+  bool timed_out = false;
+  bool found = false;  // its plan may be driven
 };
 
 struct ContinuedPlan {
   lattice_planner::PlanResult result;  // the trajectory starts with what is still driven of the last plan
   sarn::Pose2D goal;                   // the request's, or the free place that took its part
+  std::optional<SearchReport> search = std::nullopt;  // none: the last plan is kept without a search
 };
 
 /// Plans for a robot that may be driving the last plan: move_base asks for a path from the robot's pose,

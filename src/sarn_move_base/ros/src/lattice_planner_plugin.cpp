@@ -4,17 +4,25 @@
 #include <costmap_2d/layer.h>
 #include <costmap_2d/layered_costmap.h>
 #include <nav_msgs/Path.h>
+#include <tf2/exceptions.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <stdexcept>
+#include <utility>
 
 #include "lattice_planner_ros/parameters.h"
 #include "sarn_common_ros/conversions.h"
+#include "sarn_common_ros/live_parameters.h"
 #include "sarn_common_ros/parameter_reader.h"
 #include "sarn_move_base_ros/costmap_conversions.h"
 #include "sarn_move_base_ros/path_messages.h"
 #include "sarn_move_base_ros/plugin_parameters.h"
 #include "sarn_move_base_ros/social_layer.h"
+#include "social_costmap_ros/parameters.h"
+
+#ifdef SARN_HAVE_MBF
+#include <mbf_msgs/GetPathResult.h>
+#endif
 
 PLUGINLIB_EXPORT_CLASS(sarn_move_base::LatticePlanner, nav_core::BaseGlobalPlanner)
 #ifdef SARN_HAVE_MBF
@@ -48,11 +56,13 @@ void LatticePlanner::initialize(std::string name, costmap_2d::Costmap2DROS* cost
       outline_ = costmap_ros_->getRobotFootprint();
       config.footprint = toString(footprintOf(*costmap_ros_));
     }
-    people_.setParams(sarn::readParameters<social_costmap::SocialParams>(ros::NodeHandle(nh, "social")));
+    social_ = sarn::readParameters<social_costmap::SocialParams>(ros::NodeHandle(nh, "social"));
+    people_.setParams(social_);
     planner_ = std::make_unique<PlanContinuation>(config, config);
     tf_listener_.emplace(tf_);
     source_ = std::make_unique<PeopleSource>(
         PeopleSource::Topics{config.prediction_topic, config.people_topic}, name_, tf_);
+    diagnostics_ = std::make_unique<PlannerDiagnostics>(name_, config.stale_plan_age);
   } catch (const std::exception& error) {
     ROS_FATAL("%s: %s", name_.c_str(), error.what());
     planner_.reset();
@@ -60,21 +70,36 @@ void LatticePlanner::initialize(std::string name, costmap_2d::Costmap2DROS* cost
   }
   source_->subscribe();
   path_ = nh.advertise<nav_msgs::Path>("plan", 1, true);
-  reconfigure_ =
-      std::make_unique<dynamic_reconfigure::Server<lattice_planner::PlannerConfig>>(reconfigure_mutex_, nh);
-  reconfigure_->updateConfig(lattice_planner::toConfig(planner_->planner()));
-  reconfigure_->setCallback([this](lattice_planner::PlannerConfig& live, std::uint32_t) { tune(live); });
+  offerTuning(nh);
   warnOfSocialLayer();
+}
+
+void LatticePlanner::offerTuning(const ros::NodeHandle& nh) {
+  weights_ =
+      std::make_unique<dynamic_reconfigure::Server<lattice_planner::PlannerConfig>>(weights_mutex_, nh);
+  weights_->updateConfig(lattice_planner::toConfig(planner_->planner()));
+  weights_->setCallback([this](lattice_planner::PlannerConfig& live, std::uint32_t) { tune(live); });
+  social_costs_ = std::make_unique<dynamic_reconfigure::Server<social_costmap::SocialConfig>>(
+      costs_mutex_, ros::NodeHandle(nh, "social"));
+  social_costs_->updateConfig(social_costmap_ros::toConfig(social_));
+  social_costs_->setCallback([this](social_costmap::SocialConfig& live, std::uint32_t) { tuneSocial(live); });
 }
 
 /// Weights that have a problem change nothing; `config` becomes what holds.
 void LatticePlanner::tune(lattice_planner::PlannerConfig& config) {
-  try {
-    planner_->setWeights(lattice_planner::fromConfig(config, planner_->planner()));
-  } catch (const std::invalid_argument& error) {
-    ROS_WARN("%s: %s: nothing is changed", name_.c_str(), error.what());
-  }
+  const lattice_planner::PlannerParams before = planner_->planner();
+  (void)sarn::applyLive(
+      name_, before, lattice_planner::fromConfig(config, before),
+      [this](const lattice_planner::PlannerParams& wanted) { planner_->setWeights(wanted); });
   config = lattice_planner::toConfig(planner_->planner());
+}
+
+/// Likewise. The next plan looks at people so; the search that runs is not waited for.
+void LatticePlanner::tuneSocial(social_costmap::SocialConfig& config) {
+  const std::lock_guard<std::mutex> lock(social_mutex_);
+  social_ = sarn::applyLive(name_ + "/social", social_, social_costmap_ros::fromConfig(config, social_),
+                            [this](const social_costmap::SocialParams&) { social_changed_ = true; });
+  config = social_costmap_ros::toConfig(social_);
 }
 
 void LatticePlanner::warnOfSocialLayer() const {
@@ -97,7 +122,7 @@ bool LatticePlanner::makePlan(const geometry_msgs::PoseStamped& start, const geo
                               Poses& plan, double& cost) {
   const Answer given = answer(start, goal, 0.0, plan);
   cost = given.cost;
-  if (given.outcome == kSuccess) return true;
+  if (given.outcome == PlannerOutcome::kSuccess) return true;
   ROS_WARN_THROTTLE(kWarningPeriod, "%s: %s", name_.c_str(), given.message.c_str());
   return false;
 }
@@ -109,20 +134,33 @@ std::uint32_t LatticePlanner::makePlan(const geometry_msgs::PoseStamped& start,
   const Answer given = answer(start, goal, tolerance, plan);
   cost = given.cost;
   message = given.message;
-  return given.outcome;
+  return codeOf<mbf_msgs::GetPathResult>(given.outcome);
+}
+
+bool LatticePlanner::cancel() {
+  canceled_ = true;
+  return true;
 }
 #endif
 
-std::string LatticePlanner::read(const geometry_msgs::PoseStamped& message, const char* what,
-                                 sarn::Pose2D& pose) const {
-  if (message.header.frame_id != frame_) {
-    return std::string(what) + " is in frame '" + message.header.frame_id + "', the costmap in '" + frame_ +
-           "'";
+/// A pose of another frame is brought to the costmap's: move_base does that by itself, its service make_plan
+/// and move_base_flex do not.
+LatticePlanner::Place LatticePlanner::locate(const geometry_msgs::PoseStamped& message,
+                                             const std::string& what, PlannerOutcome invalid) const {
+  const auto pose = sarn::fromMessage(message.pose);
+  if (!pose) return {{}, {invalid, what + " is not finite or its rotation is not about z"}};
+  const std::string& frame = message.header.frame_id;
+  if (frame == frame_) return {*pose, {}};
+  if (frame.empty()) return {{}, {invalid, what + " has no frame_id"}};
+  std::string problem = "it is tilted";
+  try {
+    const auto transform = tf_.lookupTransform(frame_, frame, ros::Time(0));
+    if (const auto known = sarn::fromMessage(transform.transform)) return {*known * *pose, {}};
+  } catch (const tf2::TransformException& error) {
+    problem = error.what();
   }
-  const auto read = sarn::fromMessage(message.pose);
-  if (!read) return std::string(what) + " is not finite or its rotation is not about z";
-  pose = *read;
-  return {};
+  const std::string where = " is in frame '" + frame + "', the costmap in '" + frame_ + "': ";
+  return {{}, {PlannerOutcome::kTfError, what + where + problem}};
 }
 
 /// A footprint that was changed while move_base runs (its topic, dynamic_reconfigure) holds for the next
@@ -141,6 +179,10 @@ bool LatticePlanner::followFootprint(std::string& problem) {
 
 /// Costs and people as they are known at `now`; valid until the next call.
 sarn::TimedCostmapView LatticePlanner::observe(double now) {
+  {
+    const std::lock_guard<std::mutex> lock(social_mutex_);
+    if (std::exchange(social_changed_, false)) people_.setParams(social_);
+  }
   copyCosts(*costmap_ros_->getCostmap(), costs_);
   if (people_.geometry() != costs_.geometry) people_.resize(costs_.geometry);
   (void)people_.update(source_->inFrame(frame_, now, people_.params().people_timeout), now);
@@ -156,41 +198,46 @@ sarn::TimedCostmapView LatticePlanner::observe(double now) {
 LatticePlanner::Answer LatticePlanner::answer(const geometry_msgs::PoseStamped& start,
                                               const geometry_msgs::PoseStamped& goal, double tolerance,
                                               Poses& plan) {
-  using lattice_planner::PlanStatus;
   const std::lock_guard<std::mutex> lock(mutex_);
   plan.clear();
-  if (!planner_) return {kNotInitialized, "not initialized (see the log)"};
-  std::string problem;
-  if (!followFootprint(problem)) return {kInternalError, problem};
+  canceled_ = false;
+  if (!planner_) return {PlannerOutcome::kNotInitialized, "not initialized (see the log)"};
   ContinuationRequest request;
-  problem = read(start, "the start", request.robot);
-  if (!problem.empty()) return {kInvalidStart, problem};
-  problem = read(goal, "the goal", request.goal);
-  if (!problem.empty()) return {kInvalidGoal, problem};
   request.now = ros::Time::now().toSec();
   request.tolerance = tolerance;
+  const auto refuse = [&](Answer answer) {
+    diagnostics_->noteProblem(request.now, answer.message);
+    return answer;
+  };
+  std::string problem;
+  if (!followFootprint(problem)) return refuse({PlannerOutcome::kInternalError, problem});
+  const Place from = locate(start, "the start", PlannerOutcome::kInvalidStart);
+  if (from.problem.outcome != PlannerOutcome::kSuccess) return refuse(from.problem);
+  const Place to = locate(goal, "the goal", PlannerOutcome::kInvalidGoal);
+  if (to.problem.outcome != PlannerOutcome::kSuccess) return refuse(to.problem);
+  request.robot = from.pose;
+  request.goal = to.pose;
+  request.stop = [this] { return canceled_.load(); };
+  return search(request, plan);
+}
+
+LatticePlanner::Answer LatticePlanner::search(const ContinuationRequest& request, Poses& plan) {
   const ContinuedPlan made = planner_->plan(request, observe(request.now));
-  const PlanStatus status = made.result.status;
+  if (canceled_) {
+    planner_->reset();
+    diagnostics_->noteProblem(request.now, "canceled");
+    return {PlannerOutcome::kCanceled, "canceled"};
+  }
+  const lattice_planner::PlanStatus status = made.result.status;
   if (lattice_planner::isDrivable(status) && !made.result.trajectory.empty()) {
     plan = toMessages({made.result.trajectory, made.goal}, frame_);
     publish(plan);
-    return {kSuccess, {}, made.result.cost};
+    diagnostics_->note(request.now, made, request.goal, {});
+    return {PlannerOutcome::kSuccess, {}, made.result.cost};
   }
   const std::string message = std::string("no plan: ") + lattice_planner::toString(status);
-  switch (status) {
-    case PlanStatus::kStartOccupied:
-      return {kBlockedStart, message};
-    case PlanStatus::kGoalOccupied:
-      return {kBlockedGoal, message};
-    case PlanStatus::kStartOutsideMap:
-      return {kInvalidStart, message};
-    case PlanStatus::kGoalOutsideMap:
-      return {kInvalidGoal, message};
-    case PlanStatus::kInvalidRequest:
-      return {kInternalError, message};
-    default:
-      return {kNoPathFound, message};
-  }
+  diagnostics_->note(request.now, made, request.goal, message);
+  return {outcomeOf(status), message};
 }
 
 void LatticePlanner::publish(const Poses& plan) const {

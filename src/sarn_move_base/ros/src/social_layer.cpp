@@ -10,6 +10,7 @@
 #include <string>
 
 #include "sarn_common/cost_values.h"
+#include "sarn_common_ros/live_parameters.h"
 #include "sarn_common_ros/parameter_reader.h"
 #include "sarn_move_base_ros/costmap_conversions.h"
 #include "social_costmap_ros/parameters.h"
@@ -40,15 +41,19 @@ void SocialLayer::onInitialize() {
   reconfigure_ =
       std::make_unique<dynamic_reconfigure::Server<social_costmap::SocialConfig>>(reconfigure_mutex_, nh);
   reconfigure_->updateConfig(social_costmap_ros::toConfig(social));
-  reconfigure_->setCallback([this](social_costmap::SocialConfig& live, std::uint32_t) { apply(live); });
+  reconfigure_->setCallback([this](social_costmap::SocialConfig& live, std::uint32_t) { tune(live); });
   source_ = std::make_unique<PeopleSource>(
       PeopleSource::Topics{params_.prediction_topic, params_.people_topic}, "SocialLayer", *tf_);
   source_->subscribe();
 }
 
-void SocialLayer::apply(const social_costmap::SocialConfig& config) {
+/// What has a problem changes nothing; `config` becomes what holds.
+void SocialLayer::tune(social_costmap::SocialConfig& config) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  people_.setParams(social_costmap_ros::fromConfig(config, people_.params()));
+  const social_costmap::SocialParams before = people_.params();
+  (void)sarn::applyLive(name_, before, social_costmap_ros::fromConfig(config, before),
+                        [this](const social_costmap::SocialParams& wanted) { people_.setParams(wanted); });
+  config = social_costmap_ros::toConfig(people_.params());
 }
 
 void SocialLayer::activate() {

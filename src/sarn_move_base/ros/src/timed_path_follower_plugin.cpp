@@ -16,6 +16,10 @@
 #include "sarn_move_base_ros/costmap_conversions.h"
 #include "sarn_move_base_ros/path_messages.h"
 
+#ifdef SARN_HAVE_MBF
+#include <mbf_msgs/ExePathResult.h>
+#endif
+
 PLUGINLIB_EXPORT_CLASS(sarn_move_base::TimedPathFollower, nav_core::BaseLocalPlanner)
 #ifdef SARN_HAVE_MBF
 PLUGINLIB_EXPORT_CLASS(sarn_move_base::TimedPathFollower, mbf_costmap_core::CostmapController)
@@ -95,7 +99,7 @@ bool TimedPathFollower::computeVelocityCommands(geometry_msgs::Twist& cmd_vel) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const Answer answer = control();
   cmd_vel = sarn::toMessage(answer.command);
-  if (answer.outcome == kSuccess) return true;
+  if (answer.outcome == FollowerOutcome::kSuccess) return true;
   ROS_WARN_THROTTLE(kWarningPeriod, "%s: %s", name_.c_str(), answer.message.c_str());
   return false;
 }
@@ -116,7 +120,7 @@ std::uint32_t TimedPathFollower::computeVelocityCommands(const geometry_msgs::Po
   if (costmap_ros_ != nullptr) cmd_vel.header.frame_id = costmap_ros_->getBaseFrameID();
   cmd_vel.twist = sarn::toMessage(answer.command);
   message = answer.message;
-  return answer.outcome;
+  return codeOf<mbf_msgs::ExePathResult>(answer.outcome);
 }
 
 /// The follower's own tolerances decide.
@@ -207,24 +211,33 @@ bool TimedPathFollower::touches(const sarn::Pose2D& robot_in_plan) {
 }
 
 TimedPathFollower::Answer TimedPathFollower::control() {
-  if (!follower_) return {kNotInitialized, {}, "not initialized (see the log)"};
-  if (plan_frame_.empty()) return {kInvalidPath, {}, "there is no plan to follow"};
+  if (!follower_) return {FollowerOutcome::kNotInitialized, {}, "not initialized (see the log)"};
+  if (plan_frame_.empty()) return {FollowerOutcome::kInvalidPath, {}, "there is no plan to follow"};
   const double now = ros::Time::now().toSec();
   std::string problem;
   const auto fix = locate(now, problem);
-  if (!fix) return {kTfError, {}, problem + ": the robot stands still"};
+  Answer answer = fix ? controlFrom(*fix, now)
+                      : Answer{FollowerOutcome::kTfError, {}, problem + ": the robot stands still"};
+  // Whoever canceled waits for that answer, whatever else there is to complain about.
+  if (canceled_ && answer.outcome != FollowerOutcome::kSuccess) answer.outcome = FollowerOutcome::kCanceled;
+  return answer;
+}
+
+TimedPathFollower::Answer TimedPathFollower::controlFrom(const Fix& fix, double now) {
   if (params_.check_obstacles) {
-    if (!locateCostmap()) return {kTfError, {}, "the costmap's place is not known: the robot stands still"};
+    if (!locateCostmap()) {
+      return {FollowerOutcome::kTfError, {}, "the costmap's place is not known: the robot stands still"};
+    }
     try {
       followFootprint();
     } catch (const std::invalid_argument& error) {
-      return {kInvalidPath, {}, std::string("the costmap's footprint: ") + error.what()};
+      return {FollowerOutcome::kInvalidPath, {}, std::string("the costmap's footprint: ") + error.what()};
     }
     follower_->setCollisionQuery([this](const sarn::Pose2D& pose) { return touches(pose); });
   }
   const boost::unique_lock<costmap_2d::Costmap2D::mutex_t> lock(*costmap_ros_->getCostmap()->getMutex());
   footprint_.reset(viewOf(*costmap_ros_->getCostmap()));
-  return follow(*fix, now);
+  return follow(fix, now);
 }
 
 TimedPathFollower::Answer TimedPathFollower::follow(const Fix& fix, double now) {
@@ -232,12 +245,14 @@ TimedPathFollower::Answer TimedPathFollower::follow(const Fix& fix, double now) 
   const bool stopped = stands(command.twist);
   if (command.status == FollowStatus::kGoalReached) reached_ = true;
   if (command.status == FollowStatus::kTracking || command.status == FollowStatus::kGoalReached) {
-    if (command.blocked && stopped) return {kBlockedPath, {}, "an obstacle is in the way"};
-    return {kSuccess, command.twist, {}};
+    if (command.blocked && stopped) return {FollowerOutcome::kBlockedPath, {}, "an obstacle is in the way"};
+    return {FollowerOutcome::kSuccess, command.twist, {}};
   }
-  if (!stopped) return {kSuccess, command.twist, {}};  // brakes
-  if (canceled_) return {kCanceled, {}, "canceled"};
-  return {kMissedPath, {}, std::string("the plan cannot be followed: ") + toString(command.status)};
+  if (!stopped) return {FollowerOutcome::kSuccess, command.twist, {}};  // brakes
+  if (canceled_) return {FollowerOutcome::kCanceled, {}, "canceled"};
+  return {FollowerOutcome::kMissedPath,
+          {},
+          std::string("the plan cannot be followed: ") + toString(command.status)};
 }
 
 }  // namespace sarn_move_base

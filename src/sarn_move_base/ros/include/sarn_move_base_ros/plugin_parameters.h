@@ -31,11 +31,13 @@ struct SocialLayerParams {
 struct PlannerPluginParams {
   std::string prediction_topic = "people_prediction";  // sarn_msgs/PeoplePrediction
   std::string people_topic = "people";                 // people_msgs/People, while no prediction comes
+  double stale_plan_age = 2.5;  // [s] plans are asked for so long and no search gives one: a warning
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {
     v("prediction_topic", p.prediction_topic);
     v("people_topic", p.people_topic);
+    v("stale_plan_age", p.stale_plan_age, {0.1, 3600.0});
   }
 };
 

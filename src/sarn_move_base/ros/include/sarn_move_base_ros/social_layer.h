@@ -43,7 +43,7 @@ class SocialLayer : public costmap_2d::Layer {
     double max_y = -std::numeric_limits<double>::infinity();
   };
   [[nodiscard]] Area painted() const;
-  void apply(const social_costmap::SocialConfig& config);
+  void tune(social_costmap::SocialConfig& config);
 
   SocialLayerParams params_;
   std::mutex mutex_;  // everything below

@@ -18,6 +18,7 @@
 
 #include "lattice_planner/footprint_check.h"
 #include "sarn_common/pose2d.h"
+#include "sarn_move_base/outcomes.h"
 #include "sarn_move_base/timed_plan.h"
 #include "sarn_move_base_ros/plugin_parameters.h"
 #include "timed_path_follower/timed_path_follower.h"
@@ -52,18 +53,8 @@ class TimedPathFollower : public nav_core::BaseLocalPlanner
 #endif
 
  private:
-  /// Codes of mbf_msgs/ExePath.
-  enum Outcome : std::uint32_t {
-    kSuccess = 0,
-    kCanceled = 101,
-    kMissedPath = 108,
-    kBlockedPath = 110,
-    kInvalidPath = 111,
-    kTfError = 112,
-    kNotInitialized = 113,
-  };
   struct Answer {
-    Outcome outcome = kSuccess;
+    FollowerOutcome outcome = FollowerOutcome::kSuccess;
     sarn::Twist2D command;
     std::string message;  // why there is no command
   };
@@ -76,6 +67,7 @@ class TimedPathFollower : public nav_core::BaseLocalPlanner
     double stamp = 0.0;  // [s]
   };
   [[nodiscard]] Answer control();
+  [[nodiscard]] Answer controlFrom(const Fix& fix, double now);
   [[nodiscard]] Answer follow(const Fix& fix, double now);
   [[nodiscard]] std::optional<Fix> locate(double now, std::string& problem) const;
   [[nodiscard]] sarn::Twist2D measure(const Fix& fix, double now);

@@ -25,6 +25,7 @@ class Costmap2DROS {
         tf_(tf),
         nh_("~/" + name),
         base_frame_(nh_.param<std::string>("robot_base_frame", "base_link")),
+        tolerance_(nh_.param("transform_tolerance", 0.3)),
         layered_(nh_.param<std::string>("global_frame", "map"), nh_.param("rolling_window", false), false) {
     const double resolution = nh_.param("resolution", 0.05);
     layered_.resizeMap(static_cast<unsigned int>(nh_.param("width", 10.0) / resolution),
@@ -37,16 +38,19 @@ class Costmap2DROS {
     layered_.updateMap(pose.pose.position.x, pose.pose.position.y, tf2::getYaw(pose.pose.orientation));
   }
   void resetLayers() {
+    Costmap2D& master = *layered_.getCostmap();
+    master.resetMap(0, 0, master.getSizeInCellsX(), master.getSizeInCellsY());
     for (auto& plugin : *layered_.getPlugins()) plugin->reset();
   }
   bool isCurrent() { return layered_.isCurrent(); }
+  /// False when tf does not know it, or knows none that is newer than transform_tolerance.
   bool getRobotPose(geometry_msgs::PoseStamped& global_pose) const {
     geometry_msgs::PoseStamped origin;
     origin.header.frame_id = base_frame_;
     origin.pose.orientation.w = 1.0;
     try {
       tf_.transform(origin, global_pose, layered_.getGlobalFrameID());
-      return true;
+      return (ros::Time::now() - global_pose.header.stamp).toSec() <= tolerance_;
     } catch (const tf2::TransformException&) {
       return false;
     }
@@ -64,6 +68,7 @@ class Costmap2DROS {
   tf2_ros::Buffer& tf_;
   ros::NodeHandle nh_;
   std::string base_frame_;
+  double tolerance_;  // [s]
   LayeredCostmap layered_;
   std::vector<geometry_msgs::Point> footprint_;
 };

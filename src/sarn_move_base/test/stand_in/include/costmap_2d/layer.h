@@ -34,7 +34,7 @@ class Layer {
   virtual void onFootprintChanged() {}
   bool isCurrent() const { return current_; }
   bool isEnabled() const noexcept { return enabled_; }
-  std::string getName() const { return name_; }
+  const std::string& getName() const noexcept { return name_; }
 
  protected:
   virtual void onInitialize() {}

@@ -5,6 +5,7 @@
 #include <costmap_2d/costmap_2d.h>
 #include <costmap_2d/layer.h>
 
+#include <algorithm>
 #include <boost/shared_ptr.hpp>
 #include <boost/thread/locks.hpp>
 #include <limits>
