@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints JSON lines: errors of localisation on simulated drives among people, time until a carried robot is
-// found again, CPU time. Usage: localization_bench LAUNCH_DIRECTORY [SEEDS [MINUTES [PARAMS.yaml]]]
+// found again, CPU time. Usage: localization_bench LAUNCH_DIRECTORY [SEEDS [MINUTES [PARAMS.yaml
+// [FIRST_SEED]]]]
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -52,20 +53,12 @@ class Bench {
     Errors errors;
     for (DriveSample sample = drive.next(); sample.time < duration; sample = drive.next()) {
       const sarn::Pose2D found = step(localizer, drive, sample);
+      trace(localizer, sample, found);
       errors.metres.push_back((found.position() - sample.robot_in_map.position()).norm());
       errors.degrees.push_back(kDegrees *
                                std::abs(sarn::angleDifference(sample.robot_in_map.theta, found.theta)));
       const Eigen::Vector2d dead_reckoned = (scenario_.robot_pose * sample.robot_in_odom).position();
       errors.drift = std::max(errors.drift, (dead_reckoned - sample.robot_in_map.position()).norm());
-      if (std::getenv("BENCH_TRACE") != nullptr && frames_ % 30 == 0) {
-        const auto& s = localizer.status();
-        std::fprintf(
-            stderr,
-            "%.1f %.2f %.2f err %.3f deg %.2f used %zu skip %zu q %.2f slow %.2f fast %.2f rnd %.2f n %zu\n",
-            sample.time, sample.robot_in_map.x, sample.robot_in_map.y, errors.metres.back(),
-            errors.degrees.back(), s.beams, s.skipped_beams, s.explained, s.slow, s.fast, s.random_share,
-            localizer.particles().size());
-      }
     }
     std::fprintf(stderr,
                  "seed %d: driven %.0f m, %d laps, error p95 %.3f m %.2f deg max %.3f m, odometry's %.2f m\n",
@@ -79,7 +72,8 @@ class Bench {
   double kidnapped(std::uint64_t seed, double patience) {
     SimulatedDrive drive(scenario_, tour_, seed, true);
     MonteCarloLocalizer localizer = start(drive, seed);
-    const double kidnapped_at = 20.0 + 7.0 * static_cast<double>(seed);
+    constexpr std::uint64_t kTimes = 80;
+    const double kidnapped_at = 20.0 + 7.0 * static_cast<double>((seed - 1) % kTimes + 1);
     DriveSample sample = drive.next();
     for (; sample.time < kidnapped_at; sample = drive.next()) step(localizer, drive, sample);
     const std::vector<sarn::Pose2D> places = {{15.0, 6.0, 3.0}, {14.2, 9.5, 1.5}, {9.0, 3.0, -1.5},
@@ -96,6 +90,7 @@ class Bench {
       const double since = sample.time - kidnapped_at;
       if (since > patience + kStays) return -1.0;
       const sarn::Pose2D found = step(localizer, drive, sample);
+      trace(localizer, sample, found);
       const bool right =
           (found.position() - sample.robot_in_map.position()).norm() < kFoundDistance &&
           std::abs(sarn::angleDifference(sample.robot_in_map.theta, found.theta)) < kFoundAngle;
@@ -121,14 +116,30 @@ class Bench {
 
   /// The pose that the localizer gives for this sample.
   sarn::Pose2D step(MonteCarloLocalizer& localizer, const SimulatedDrive& drive, const DriveSample& sample) {
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     const auto beams =
         sarn_localization::selectBeams(sample.scan, drive.baseFromSensor(), beamLimits(params_));
     localizer.addScan(sample.robot_in_odom, beams);
     const sarn::Pose2D pose = localizer.mapFromOdom().value_or(sarn::Pose2D{}) * sample.robot_in_odom;
-    cpu_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    cpu_seconds_ += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     ++frames_;
     return pose;
+  }
+
+  /// With BENCH_TRACE in the environment: a line a second, to stderr.
+  void trace(const MonteCarloLocalizer& localizer, const DriveSample& sample,
+             const sarn::Pose2D& found) const {
+    if (std::getenv("BENCH_TRACE") == nullptr || frames_ % 30 != 0) return;
+    const auto& truth = sample.robot_in_map;
+    const auto& s = localizer.status();
+    std::fprintf(
+        stderr,
+        "%.1f s at %.2f %.2f %.2f, found %.2f %.2f %.2f, off %.3f m %.2f deg, beams %zu skipped %zu, "
+        "explained %.2f slow %.2f fast %.2f random %.2f, %zu particles\n",
+        sample.time, truth.x, truth.y, truth.theta, found.x, found.y, found.theta,
+        (found.position() - truth.position()).norm(),
+        kDegrees * std::abs(sarn::angleDifference(truth.theta, found.theta)), s.beams, s.skipped_beams,
+        s.explained, s.slow, s.fast, s.random_share, localizer.particles().size());
   }
 
   sarn_localization::LocalizationParams params_;
@@ -139,27 +150,29 @@ class Bench {
 };
 
 int run(const std::filesystem::path& launch, int seeds, double minutes,
-        const sarn_localization::LocalizationParams& params) {
+        const sarn_localization::LocalizationParams& params, int first) {
   Bench bench(launch, params);
   Errors all;
-  for (int seed = 1; seed <= seeds && minutes > 0.0; ++seed) {
+  for (int seed = first; seed < first + seeds && minutes > 0.0; ++seed) {
     const Errors errors = bench.drive(static_cast<std::uint64_t>(seed), 60.0 * minutes);
     all.metres.insert(all.metres.end(), errors.metres.begin(), errors.metres.end());
     all.degrees.insert(all.degrees.end(), errors.degrees.begin(), errors.degrees.end());
     all.drift = std::max(all.drift, errors.drift);
   }
-  std::printf("{\"localization.error_m.p95\": %.4f}\n", percentile(all.metres, 0.95));
-  std::printf("{\"localization.error_m.max\": %.4f}\n", percentile(all.metres, 1.0));
-  std::printf("{\"localization.error_deg.p95\": %.4f}\n", percentile(all.degrees, 0.95));
-  std::printf("{\"localization.odometry_drift_m.max\": %.4f}\n", all.drift);
-  std::printf("{\"localization.cpu_cores\": %.5f}\n", bench.cpuShare());
+  if (minutes > 0.0) {
+    std::printf("{\"localization.error_m.p95\": %.4f}\n", percentile(all.metres, 0.95));
+    std::printf("{\"localization.error_m.max\": %.4f}\n", percentile(all.metres, 1.0));
+    std::printf("{\"localization.error_deg.p95\": %.4f}\n", percentile(all.degrees, 0.95));
+    std::printf("{\"localization.odometry_drift_m.max\": %.4f}\n", all.drift);
+    std::printf("{\"localization.cpu_cores\": %.5f}\n", bench.cpuShare());
+  }
 
   constexpr double kPatience = 60.0;  // [s]
   constexpr double kGoal = 20.0;      // [s]
   std::vector<double> times;
   int in_time = 0;
   const int kidnappings = 4 * seeds;
-  for (int seed = 1; seed <= kidnappings; ++seed) {
+  for (int seed = first; seed < first + kidnappings; ++seed) {
     const double time = bench.kidnapped(static_cast<std::uint64_t>(seed), kPatience);
     std::fprintf(stderr, "kidnapped, seed %d: found after %.1f s\n", seed, time);
     times.push_back(time < 0.0 ? kPatience : time);
@@ -174,18 +187,19 @@ int run(const std::filesystem::path& launch, int seeds, double minutes,
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: localization_bench LAUNCH_DIRECTORY [SEEDS [MINUTES [PARAMS.yaml]]]\n");
+    std::fprintf(stderr,
+                 "usage: localization_bench LAUNCH_DIRECTORY [SEEDS [MINUTES [PARAMS.yaml [FIRST_SEED]]]]\n");
     return EXIT_FAILURE;
   }
   try {
     sarn_localization::LocalizationParams params;
-    if (argc > 4) {
+    if (argc > 4 && argv[4][0] != '\0') {
       for (const auto& problem : sarn::setFromYaml(YAML::LoadFile(argv[4]), params)) {
         throw std::runtime_error(std::string(argv[4]) + ": " + problem);
       }
     }
     return run(argv[1], argc > 2 ? std::max(1, std::atoi(argv[2])) : 3, argc > 3 ? std::atof(argv[3]) : 10.0,
-               params);
+               params, argc > 5 ? std::max(1, std::atoi(argv[5])) : 1);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return EXIT_FAILURE;

@@ -27,16 +27,6 @@ sarn::Pose2D anyFreePose(const WallDistance& walls, std::mt19937_64& random) {
   return {x, y, heading(random)};
 }
 
-ScanBeams everyFewBeams(const ScanBeams& scan, std::size_t count) {
-  if (scan.beams.size() <= count) return scan;
-  ScanBeams few;
-  few.origin = scan.origin;
-  for (std::size_t k = 0; k < count; ++k) {
-    few.beams.push_back(scan.beams[(2 * k + 1) * scan.beams.size() / (2 * count)]);
-  }
-  return few;
-}
-
 /// `count` draws with replacement, by the exponentials of log_weights.
 std::vector<sarn::Pose2D> draw(const std::vector<sarn::Pose2D>& poses, std::vector<double> log_weights,
                                std::size_t count, std::mt19937_64& random) {

@@ -16,6 +16,7 @@
 #include "sarn_localization/distance_filter.h"
 #include "sarn_localization/likely_poses.h"
 #include "sarn_localization/motion_model.h"
+#include "sarn_localization/recent_scans.h"
 #include "sarn_localization/recovery_monitor.h"
 
 namespace sarn_localization {
@@ -27,6 +28,12 @@ constexpr double kLeastRandomShare = 0.15;  // [1] less is noise of the averages
 constexpr double kGreatestRandomShare =
     0.1;  // [1] of the belief at once: less than the distance filter asks for
 constexpr std::size_t kGlobalCandidates = 5;  // global localisation looks at this many times the candidates
+
+constexpr double kContent = 0.85;    // [1] of recent returns explained: no reason to look elsewhere
+constexpr double kMostOfIt = 0.7;    // [1] of recent returns: a place that explains less is none
+constexpr int kLookEvery = 4;        // remembered scans
+constexpr double kAlike = 0.05;      // [1] explained less than by the best place: may be it too
+constexpr double kRivalShare = 0.5;  // [1] of the belief, for such places
 
 const LocalizationParams& checked(const LocalizationParams& params) {
   std::string text;
@@ -69,6 +76,7 @@ struct MonteCarloLocalizer::Impl {
     filter.setParticles(poses);
     knowledge = Knowledge::kBelief;
     monitor.forgetFast();
+    recent.clear();
     odom_at_update = robot_in_odom;
     estimate = robot_in_map;
     force_update = true;
@@ -105,6 +113,7 @@ struct MonteCarloLocalizer::Impl {
                                         static_cast<std::size_t>(params.max_particles), random));
     knowledge = Knowledge::kBelief;
     monitor.forgetFast();
+    recent.clear();
   }
 
   /// Gives a share of the belief to poses that the scan makes likely.
@@ -114,6 +123,45 @@ struct MonteCarloLocalizer::Impl {
         drawLikelyPoses(*walls, params, scan, static_cast<std::size_t>(params.recovery_candidates),
                         static_cast<std::size_t>(params.min_particles), random),
         std::min(share, kGreatestRandomShare));
+  }
+
+  /// Gives half of the belief to another place that explains the last stretch of the way better.
+  ///
+  /// A robot that took one room for another like it dismisses as people what tells them apart: the distance
+  /// filter asks a belief that is of one mind, and what it leaves out neither lowers the likelihood that
+  /// recovery watches nor speaks for the right place. So here all returns count. People who are in view raise
+  /// the doubt, but no other place explains them and all else on the stretch, nor most of what a crowd shows
+  /// that hides every wall. And beams are not left out while half of the belief explains them, so that the
+  /// next scans decide.
+  void lookElsewhere(const sarn::Pose2D& robot_in_odom, const ScanBeams& scan) {
+    if (params.recovery_margin >= 1.0 || scan.coverage < params.least_coverage) return;
+    if (!recent.add(robot_in_odom, scan) || !recent.full() || ++looks_ago < kLookEvery) return;
+    const ScanLikelihood stretch(params, recent.seenFrom(robot_in_odom));
+    const double here = stretch.fit(*walls, estimate->pose).explained;
+    if (here > kContent) return;
+    looks_ago = 0;
+    const std::vector<sarn::Pose2D> rivals =
+        placesThatExplain(stretch, std::max(kMostOfIt, here + params.recovery_margin));
+    if (rivals.empty()) return;
+    filter.addParticles(rivals, kRivalShare);
+    recent.clear();
+  }
+
+  /// Poses that explain at least that share of the returns and hardly less than the best one does.
+  [[nodiscard]] std::vector<sarn::Pose2D> placesThatExplain(const ScanLikelihood& seen, double share) {
+    std::vector<WeightedPose> places;
+    double best = share;
+    for (const sarn::Pose2D& pose :
+         drawLikelyPoses(*walls, params, seen.scan(), static_cast<std::size_t>(params.recovery_candidates),
+                         static_cast<std::size_t>(params.min_particles), random)) {
+      places.push_back({pose, seen.fit(*walls, pose).explained});
+      best = std::max(best, places.back().weight);
+    }
+    std::vector<sarn::Pose2D> chosen;
+    for (const auto& [pose, explained] : places) {
+      if (explained >= share && explained >= best - kAlike) chosen.push_back(pose);
+    }
+    return chosen;
   }
 
   [[nodiscard]] PoseEstimate belief(const sarn::Pose2D& motion) const {
@@ -149,6 +197,7 @@ struct MonteCarloLocalizer::Impl {
     addRandomParticles(share, likelihood.scan());
 
     estimate = heaviestCluster(filter.weightedPoses());
+    lookElsewhere(robot_in_odom, scan);
     odom_at_update = robot_in_odom;
     force_update = false;
     status = {likelihood.scan().beams.size(),
@@ -163,6 +212,8 @@ struct MonteCarloLocalizer::Impl {
   LocalizationParams params;
   MrptFilter filter;
   RecoveryMonitor monitor;
+  RecentScans recent;
+  int looks_ago = kLookEvery;  // remembered scans since lookElsewhere() last searched
   std::mt19937_64 random;
   std::optional<WallDistance> walls;
   Knowledge knowledge = Knowledge::kNothing;

@@ -59,4 +59,16 @@ ScanBeams selectBeams(const PlanarScan& scan, const sarn::Pose2D& base_from_sens
   return result;
 }
 
+ScanBeams everyFewBeams(const ScanBeams& scan, std::size_t count) {
+  if (scan.beams.size() <= count) return scan;
+  ScanBeams few;
+  few.origin = scan.origin;
+  few.coverage = scan.coverage;
+  few.beams.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    few.beams.push_back(scan.beams[(2 * k + 1) * scan.beams.size() / (2 * count)]);
+  }
+  return few;
+}
+
 }  // namespace sarn_localization

@@ -48,6 +48,23 @@ inline sarn::OccupancyMap hall() {
   return drawnMap(rows, 0.5);
 }
 
+/// Two rooms of 6 m x 5 m, one 7 m to the right of the other, alike but for cupboards in the left one.
+inline sarn::OccupancyMap twoRoomsAlike() {
+  constexpr double kCell = 0.05;
+  sarn::OccupancyMap map({264, 104, kCell, 0.0, 0.0}, sarn::kMapFree);
+  for (int y = 0; y < 104; ++y) {
+    for (int x = 0; x < 264; ++x) {
+      const int in_room = x % 140;
+      const bool outer = y < 2 || y > 101 || in_room < 2 || in_room > 121;
+      const bool pillar = in_room >= 90 && in_room < 100 && y >= 70;
+      const bool cupboard =
+          x < 140 && ((y >= 92 && in_room >= 20 && in_room < 60) || (y < 12 && in_room >= 60));
+      if (outer || pillar || cupboard) map.at({x, y}) = sarn::kMapOccupied;
+    }
+  }
+  return map;
+}
+
 /// Every second cell of a map, twice as wide.
 inline sarn::OccupancyMap coarser(const sarn::OccupancyMap& map) {
   const sarn::GridGeometry& fine = map.geometry;

@@ -216,6 +216,33 @@ TEST_F(MonteCarloLocalizerTest, findsItselfAgainAfterBeingCarried) {
   EXPECT_LT(drive_.error(localizer_), 0.2);
 }
 
+/// Error after 30 m in one of two rooms that look alike but for its cupboards, by a robot that takes it for
+/// the other: it could go on for ever taking the cupboards for people.
+double errorInARoomLikeAnother(double recovery_margin) {
+  const WallDistance walls(twoRoomsAlike());
+  LocalizationParams choosing = params();
+  choosing.recovery_margin = recovery_margin;
+  MonteCarloLocalizer localizer(choosing);
+  localizer.setMap(twoRoomsAlike());
+  sarn::Pose2D truth{3.0, 1.2, 0.0};
+  sarn::Pose2D odometry;
+  PoseEstimate start{{truth.x + 7.0, truth.y, truth.theta}, Eigen::Matrix3d::Zero()};
+  start.covariance.diagonal() << 0.02, 0.02, 0.01;
+  localizer.setPose(start, odometry);
+  for (int i = 0; i < 240; ++i) {
+    truth = sarn::advance(truth, {0.5, 0.4}, 0.25);
+    odometry = sarn::advance(odometry, {0.503, 0.402}, 0.25);
+    localizer.addScan(odometry, selectBeams(idealScan(walls, truth, kXtion, 120), {}, kLimits));
+  }
+  const sarn::Pose2D found = localizer.mapFromOdom().value() * odometry;
+  return (found.position() - truth.position()).norm();
+}
+
+TEST(MonteCarloLocalizer, tellsApartRoomsThatDifferOnlyInWhatCouldBePeople) {
+  EXPECT_LT(errorInARoomLikeAnother(LocalizationParams{}.recovery_margin), 0.1);
+  EXPECT_GT(errorInARoomLikeAnother(1.0), 5.0) << "the rooms are a test at all";
+}
+
 TEST_F(MonteCarloLocalizerTest, worksOnAFullCircleScan) {
   knowStart();
   for (int i = 0; i < 60; ++i) {

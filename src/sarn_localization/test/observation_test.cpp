@@ -9,6 +9,7 @@
 #include "drawn_map.h"
 #include "sarn_localization/distance_filter.h"
 #include "sarn_localization/likely_poses.h"
+#include "sarn_localization/recent_scans.h"
 #include "sarn_localization/scan_likelihood.h"
 
 namespace sarn_localization {
@@ -193,6 +194,26 @@ TEST(LikelyPoses, areWhereTheScanFits) {
     if ((pose.position() - truth.position()).norm() < 0.2) ++near;
   }
   EXPECT_GE(near, 90);
+}
+
+TEST(RecentScans, layTheReturnsOfAStretchOnTheirWalls) {
+  const WallDistance walls(unevenRoom());
+  sarn::Pose2D truth{4.0, 1.3, 0.3};
+  sarn::Pose2D odometry{-2.0, 5.0, 1.0};
+  RecentScans recent;
+  std::size_t taken = 0;
+  while (!recent.full()) {
+    truth = sarn::advance(truth, {0.5, 0.4}, 0.25);
+    odometry = sarn::advance(odometry, {0.5, 0.4}, 0.25);
+    if (recent.add(odometry, selectBeams(idealScan(walls, truth, 1.02, 120), {}, {}))) ++taken;
+    ASSERT_LT(taken, 100U);
+  }
+  EXPECT_FALSE(recent.add(odometry, ScanBeams{})) << "no motion";
+  const ScanBeams seen = recent.seenFrom(odometry);
+  EXPECT_EQ(seen.beams.size(), RecentScans::kScans * RecentScans::kMostBeams);
+  for (const Beam& beam : seen.beams) EXPECT_LT(walls.at(truth * beam.end, 1.0), 0.02);
+  recent.clear();
+  EXPECT_FALSE(recent.full());
 }
 
 }  // namespace

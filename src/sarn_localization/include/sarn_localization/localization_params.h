@@ -60,8 +60,10 @@ struct LocalizationParams : SharedParams {
   // Recovery (augmented MCL: Thrun et al. 2005, table 8.3)
   double recovery_alpha_slow = 0.002;  // [1] weight of a new likelihood in the slow average; 0: no recovery
   double recovery_alpha_fast = 0.1;    // [1] in the fast average; 0: no recovery
-  double least_coverage = 0.3;         // [1] returns in a scan; in fewer there may be nothing but people
-  int recovery_candidates = 10000;     // poses from which the likely ones are drawn
+  double recovery_margin =
+      0.15;  // [1] of recent returns that another place must explain more; 1: never looked for
+  double least_coverage = 0.3;      // [1] returns in a scan; in fewer there may be nothing but people
+  int recovery_candidates = 10000;  // poses from which the likely ones are drawn
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {
@@ -100,6 +102,7 @@ struct LocalizationParams : SharedParams {
     v("beam_skip_error_threshold", p.beam_skip_error_threshold, {0.0, 1.0});
     v("recovery_alpha_slow", p.recovery_alpha_slow, {0.0, 1.0});
     v("recovery_alpha_fast", p.recovery_alpha_fast, {0.0, 1.0});
+    v("recovery_margin", p.recovery_margin, {0.0, 1.0});
     v("least_coverage", p.least_coverage, {0.0, 1.0});
     v("recovery_candidates", p.recovery_candidates, {100.0, 1e6});
   }

@@ -53,4 +53,7 @@ struct BeamLimits {
 [[nodiscard]] ScanBeams selectBeams(const PlanarScan& scan, const sarn::Pose2D& base_from_sensor,
                                     const BeamLimits& limits);
 
+/// `count` of its returns at most, evenly spread.
+[[nodiscard]] ScanBeams everyFewBeams(const ScanBeams& scan, std::size_t count);
+
 }  // namespace sarn_localization
