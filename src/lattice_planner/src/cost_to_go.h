@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "crowded_map.h"
 #include "lattice_planner/alignment_table.h"
 #include "lattice_planner/distance_field.h"
 #include "lattice_planner/escape_zone.h"
@@ -34,13 +35,19 @@ class CostToGo {
   void judge(SearchState& state);
 
  private:
+  [[nodiscard]] SpaceTimeField::Estimate guessAt(const SearchState& state);
+  [[nodiscard]] DistanceFieldTask fieldTask() const;
   [[nodiscard]] float turning(const SearchState& state, const SpaceTimeField::Estimate& place) const;
 
   const SearchTask& task_;
+  std::function<bool(const sarn::CellIndex&)> exempt_;
   GoalTable table_;
   AlignmentTable alignment_;
   DistanceField field_;
   SpaceTimeField people_field_;
+  CrowdedMap crowded_map_;       // who stays where the time layers end
+  DistanceField crowded_field_;  // among them
+  bool crowded_ = false;
 };
 
 }  // namespace lattice_planner

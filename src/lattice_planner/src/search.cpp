@@ -52,6 +52,8 @@ void Search::prepare(const PlanRequest& request, const sarn::TimedCostmapView& c
   effort_.begin(deadline, request.stop);
   pool_.reset();
   open_.clear();
+  columns_.clear();
+  in_columns_ = false;
   partial_plan_.reset();
   best_goal_ = kNoState;
   best_cost_ = std::numeric_limits<double>::infinity();
@@ -84,12 +86,18 @@ StateId Search::addStart() {
 }
 
 float Search::keyOf(const SearchState& state) const {
-  return static_cast<float>(state.g + effort_.weight() * static_cast<double>(state.estimate));
+  const double weight = in_columns_ ? 1.0 : effort_.weight();
+  return static_cast<float>(state.g + weight * static_cast<double>(state.estimate));
 }
 
 void Search::open(StateId id) {
   const SearchState& state = pool_[id];
-  open_.push({keyOf(state), state.h, id});
+  const OpenList::Entry entry{keyOf(state), state.h, id};
+  if (in_columns_) {
+    columns_.push(state.step, entry);
+  } else {
+    open_.push(entry);
+  }
   frontier_.add(state.f());
 }
 
@@ -101,11 +109,15 @@ bool Search::goodEnough() {
   if (!effort_.improvedEnough()) return false;
   if (task_.params.promising_expansions == 0) return true;
   double cheapest = best_cost_;
-  open_.forEach([&](const OpenList::Entry& entry) {
+  const auto look = [&](const OpenList::Entry& entry) {
     const SearchState& state = pool_[entry.id];
     if (!state.done) cheapest = std::min(cheapest, state.g + static_cast<double>(state.estimate));
-  });
-  return !effort_.goesOn(cheapest / best_cost_);
+  };
+  open_.forEach(look);
+  columns_.forEach(look);
+  if (!effort_.goesOn(cheapest / best_cost_)) return true;
+  if (!in_columns_) sortIntoColumns();
+  return false;
 }
 
 Search::Outcome Search::run() {
@@ -119,9 +131,9 @@ Search::Outcome Search::run() {
   }
   cost_to_go_.look();
   open(start);
-  while (!open_.empty()) {
+  while (anyOpen()) {
     if (effort_.spent(pool_.size())) return Outcome::kOutOfTime;
-    const OpenList::Entry entry = open_.pop();
+    const OpenList::Entry entry = in_columns_ ? columns_.pop() : open_.pop();
     SearchState& state = pool_[entry.id];
     if (state.done) continue;
     state.done = true;
@@ -192,7 +204,17 @@ void Search::acceptGoal(StateId id) {
   best_goal_ = id;
   best_cost_ = pool_[id].g;
   pool_[id].done = true;
-  reorderOpen();
+  if (!in_columns_) reorderOpen();
+}
+
+/// From here on the open states are taken from all time steps in turn.
+void Search::sortIntoColumns() {
+  in_columns_ = true;
+  open_.forEach([this](const OpenList::Entry& entry) {
+    const SearchState& state = pool_[entry.id];
+    if (!state.done) columns_.push(state.step, {keyOf(state), state.h, entry.id});
+  });
+  open_.clear();
 }
 
 /// Sorts the open states by the present weight; without those that cannot lead to a cheaper plan.
@@ -224,7 +246,7 @@ void Search::finish(Outcome outcome, PlanResult& result) {
   }
   result.status = PlanStatus::kComplete;
   result.cost = best_cost_;
-  const double lowest = open_.empty() ? best_cost_ : frontier_.lowest();
+  const double lowest = !anyOpen() ? best_cost_ : frontier_.lowest();
   result.bound = lowest > 0.0 ? std::max(1.0, best_cost_ / lowest) : 1.0;
   result.trajectory = trajectoryTo(best_goal_);
 }

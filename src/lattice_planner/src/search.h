@@ -12,6 +12,7 @@
 #include "lattice_planner/state_pool.h"
 #include "merge_key.h"
 #include "motion_check.h"
+#include "open_columns.h"
 #include "partial_plan.h"
 #include "sarn_common/timed_costmap_view.h"
 #include "search_effort.h"
@@ -46,6 +47,8 @@ class Search {
   void open(StateId id);
   void acceptGoal(StateId id);
   void reorderOpen();
+  void sortIntoColumns();
+  [[nodiscard]] bool anyOpen() const { return in_columns_ ? !columns_.empty() : !open_.empty(); }
   [[nodiscard]] bool proved();
   [[nodiscard]] bool goodEnough();
 
@@ -59,6 +62,8 @@ class Search {
   SearchEffort effort_;
   StatePool pool_;
   OpenList open_;
+  OpenColumns columns_;  // takes the place of open_ once in_columns_
+  bool in_columns_ = false;
   FrontierBound frontier_;
   PartialPlan partial_plan_;
   std::vector<Successor> successors_;  // of the state being expanded

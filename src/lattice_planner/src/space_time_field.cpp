@@ -21,9 +21,9 @@ constexpr float kForbiddenRate =
 
 }  // namespace
 
-void SpaceTimeField::reset(const SpaceTimeTask& task, DistanceField& distance) {
+void SpaceTimeField::reset(const SpaceTimeTask& task, DistanceField& distance, DistanceField* late) {
   layOut(task);
-  sampleStatic(task, distance);
+  sampleStatic(task, distance, late);
   const auto reach = [&](int k) { return task.max_speed * k * time_step_ + kLeastReach; };
   sampleRates(task, task.start_time + steps_ * time_step_, reach(steps_), next_rates_);
   for (int k = steps_ - 1; k >= 0; --k) {
@@ -64,13 +64,15 @@ void SpaceTimeField::layOut(const SpaceTimeTask& task) {
   }
 }
 
-void SpaceTimeField::sampleStatic(const SpaceTimeTask& task, DistanceField& distance) {
+void SpaceTimeField::sampleStatic(const SpaceTimeTask& task, DistanceField& distance, DistanceField* late) {
   const auto size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   static_rates_.assign(size, kInfinity);
   costs_.resize(std::max(costs_.size(), static_cast<std::size_t>(steps_) + 1));
   for (int k = 0; k <= steps_; ++k) costs_[static_cast<std::size_t>(k)].assign(size, kInfinity);
   const double per_metre = task.time_weight / task.max_speed + task.length_weight;
   distance.computeDetours(static_cast<float>(kDetourReach * per_metre));
+  if (late != nullptr) late->computeDetours(static_cast<float>(kDetourReach * per_metre));
+  alone_.assign(size, kInfinity);
   std::vector<float>& last = costs_[static_cast<std::size_t>(steps_)];
   for (int row = kPadding; row < height_ - kPadding; ++row) {
     for (int column = kPadding; column < width_ - kPadding; ++column) {
@@ -82,7 +84,8 @@ void SpaceTimeField::sampleStatic(const SpaceTimeTask& task, DistanceField& dist
       const auto index =
           static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column);
       static_rates_[index] = (*task.static_rate)[cost];
-      last[index] = distance.knownGuess(cell);
+      alone_[index] = distance.knownGuess(cell);
+      last[index] = late != nullptr ? late->knownGuess(cell) : alone_[index];
     }
   }
 }
@@ -125,7 +128,7 @@ void SpaceTimeField::stepBack(const std::vector<float>& rates, const std::vector
     const int count = last - first + 1;
     float* const out = costs.data() + begin;
     const float* const rate = rates.data() + begin;
-    const float* const alone = costs_[static_cast<std::size_t>(steps_)].data() + begin;
+    const float* const alone = alone_.data() + begin;
     for (const Move& move : moves_) {
       const float* const to = next.data() + begin + move.offset;
       const float* const to_rate = next_rates.data() + begin + move.offset;

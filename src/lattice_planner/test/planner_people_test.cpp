@@ -93,6 +93,27 @@ TEST(People, whoStandRemainWhereThePredictionEnds) {
   EXPECT_TRUE(faults(result.trajectory, task, params, world).empty());
 }
 
+// A row of people across the way, open at one end, costs the search no more than a wall of that shape.
+TEST(People, whoStandGuideTheSearchAsWallsDo) {
+  const auto work = [](bool people) {
+    World world = World::room(6.0, 4.0);
+    world.addLayers(20, 0.5);
+    for (double y = 0.0; y < 3.2; y += 0.4) {
+      for (int layer = 0; people && layer < 20; ++layer) world.paint(layer, 3.0, y, 0.35);
+      if (!people) world.paintStatic(3.0, y, 0.35, sarn::kInscribedObstacle);
+    }
+    const PlanRequest task = request({1.0, 0.8, 0.0}, {5.0, 0.8, 0.0});
+    const PlanResult result = planner().plan(task, world.view());
+    EXPECT_EQ(result.status, PlanStatus::kComplete) << people;
+    EXPECT_TRUE(faults(result.trajectory, task, planner().params(), world).empty()) << people;
+    return result;
+  };
+  const PlanResult walls = work(false);
+  const PlanResult people = work(true);
+  EXPECT_LT(people.expansions, walls.expansions + walls.expansions / 2);
+  EXPECT_NEAR(people.cost, walls.cost, 0.02 * walls.cost);
+}
+
 TEST(Partial, standsWhereNobodyComes) {
   // The goal is occupied by a person all the time; another one sweeps the last metre before it later on.
   World world = World::room(5.0, 1.0);

@@ -44,7 +44,8 @@ class SpaceTimeField {
     float slope_y = 0.0F;  // [1/m]
   };
 
-  void reset(const SpaceTimeTask& task, DistanceField& distance);
+  /// `late`: the way on for who comes when the people's horizon is over; none: as `distance`.
+  void reset(const SpaceTimeTask& task, DistanceField& distance, DistanceField* late = nullptr);
   [[nodiscard]] Estimate at(double x, double y, double t) const;
 
  private:
@@ -56,7 +57,7 @@ class SpaceTimeField {
 
   void layOut(const SpaceTimeTask& task);
   void keepArrivals(const SpaceTimeTask& task, std::vector<float>& costs) const;
-  void sampleStatic(const SpaceTimeTask& task, DistanceField& distance);
+  void sampleStatic(const SpaceTimeTask& task, DistanceField& distance, DistanceField* late);
   void sampleRates(const SpaceTimeTask& task, double t, double reach, std::vector<float>& rates) const;
   void stepBack(const std::vector<float>& rates, const std::vector<float>& next_rates,
                 const std::vector<float>& next, std::vector<float>& costs, double reach);
@@ -80,8 +81,10 @@ class SpaceTimeField {
   double start_time_ = 0.0;  // [s]
   double time_step_ = 0.5;   // [s]
   int steps_ = 0;
-  std::vector<float> static_rates_;        // infinity: blocked
-  std::vector<std::vector<float>> costs_;  // [step][cell]; the last is the distance field
+  std::vector<float> static_rates_;  // infinity: blocked
+  std::vector<std::vector<float>>
+      costs_;                 // [step][cell]; the last is the way on when people are gone or stay
+  std::vector<float> alone_;  // [cell] the distance field
   std::vector<float> rates_;
   std::vector<float> next_rates_;
 };
