@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lattice planner beside OMPL's SST, RRT and KPIECE on the same tasks, limits, forbidden places and cost.
-// Prints one JSON object of figures ompl.PLANNER.{first_solution_ms,cost,success} and, with --log FILE, lets
-// OMPL's own Benchmark run all four on the first task and write its log.
+// Prints one JSON object of figures ompl.PLANNER.{success,first_solution_ms,cost,cost_over_lattice} for half
+// a second a task, the same with the suffix _10s for some of the tasks with ten seconds each, and, with --log
+// FILE, lets OMPL's own Benchmark run all four on the first task and write its log.
 #include <ompl/control/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -24,7 +28,8 @@ namespace {
 using namespace lattice_planner_ompl;
 using lattice_planner::PlanStatus;
 
-constexpr double kTimeLimit = 0.5;  // [s]
+constexpr double kTimeLimit = 0.5;       // [s] what a robot may wait for
+constexpr double kLongTimeLimit = 10.0;  // [s]
 
 /// A hall of 10 x 6 m with two walls, and a person who crosses it.
 struct World {
@@ -84,34 +89,73 @@ std::vector<Task> makeTasks(const World& world, int count) {
   return tasks;
 }
 
-struct Figures {
-  std::vector<double> first_ms;
-  std::vector<double> costs;
-  int solved = 0;
+/// What became of one task.
+struct Run {
+  bool solved = false;
+  double first = 0.0;   // [s] until the first solution
+  double search = 0.0;  // [s] in all
+  double cost = 0.0;
 };
+using Runs = std::vector<Run>;  // one a task
 
 double median(std::vector<double> values) {
-  if (values.empty()) return -1.0;
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
 }
 
-void print(const std::string& name, const Figures& figures, std::size_t tasks, bool last) {
-  std::printf("\"ompl.%s.success\": %.3f", name.c_str(),
-              static_cast<double>(figures.solved) / static_cast<double>(tasks));
-  if (figures.solved > 0) {
-    std::printf(", \"ompl.%s.first_solution_ms.median\": %.4g, \"ompl.%s.cost.median\": %.4g", name.c_str(),
-                median(figures.first_ms), name.c_str(), median(figures.costs));
-  }
-  std::printf(last ? "}\n" : ", ");
+/// "name": value, of JSON.
+void print(const std::string& name, double value) {
+  static const char* separator = "{";
+  std::printf("%s\"ompl.%s\": %.4g", separator, name.c_str(), value);
+  separator = ", ";
 }
 
-void note(const lattice_planner::PlanResult& result, double first, const Problem& problem, Figures& figures) {
-  if (result.status != PlanStatus::kComplete) return;
-  ++figures.solved;
-  figures.first_ms.push_back(first * 1e3);
-  figures.costs.push_back(
-      lattice_planner::trajectoryCost(problem.params, result.trajectory, problem.costs, 0.0));
+/// The median over the tasks solved; nothing when there are none.
+template <class Value>
+void printMedian(const std::string& name, const Runs& runs, const Value& value) {
+  std::vector<double> values;
+  for (const Run& run : runs) {
+    if (run.solved) values.push_back(value(run));
+  }
+  if (!values.empty()) print(name + ".median", median(values));
+}
+
+void print(const std::string& planner, const std::string& suffix, const Runs& runs) {
+  const auto solved = std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.solved; });
+  print(planner + ".success" + suffix, static_cast<double>(solved) / static_cast<double>(runs.size()));
+  printMedian(planner + ".first_solution_ms" + suffix, runs, [](const Run& run) { return 1e3 * run.first; });
+  printMedian(planner + ".cost" + suffix, runs, [](const Run& run) { return run.cost; });
+}
+
+/// Costs over different tasks say nothing of each other: over those that both solved.
+void printRatio(const std::string& planner, const std::string& suffix, const Runs& runs,
+                const Runs& lattice) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].solved && lattice[i].solved) ratios.push_back(runs[i].cost / lattice[i].cost);
+  }
+  print(planner + ".compared" + suffix, static_cast<double>(ratios.size()));
+  if (!ratios.empty()) print(planner + ".cost_over_lattice" + suffix + ".median", median(ratios));
+}
+
+Run noted(const lattice_planner::PlanResult& result, double first, const Problem& problem) {
+  if (result.status != PlanStatus::kComplete) return {};
+  return {true, first, result.search_time,
+          lattice_planner::trajectoryCost(problem.params, result.trajectory, problem.costs, 0.0)};
+}
+
+lattice_planner::PlanRequest request(const Task& task, double limit) {
+  return {{task.start.x, task.start.y, task.start.theta, 0.0, 0.0, 0.0}, task.goal, limit};
+}
+
+Runs runOmpl(const std::string& name, const Problem& problem, const std::vector<Task>& tasks, double limit) {
+  OmplPlanner planner(algorithmOf(name), problem.params);
+  Runs runs;
+  for (const Task& task : tasks) {
+    const auto outcome = planner.planMeasured(request(task, limit), problem.costs);
+    runs.push_back(noted(outcome.result, outcome.first_solution_time, problem));
+  }
+  return runs;
 }
 
 void writeOmplLog(const Problem& problem, const Task& task, const std::string& file) {
@@ -136,33 +180,40 @@ void writeOmplLog(const Problem& problem, const Task& task, const std::string& f
   benchmark.saveResultsToFile(file.c_str());
 }
 
-int run(int count, const std::string& log) {
+struct Options {
+  int tasks = 20;
+  int long_tasks = 6;
+  std::string log;  // empty: none
+};
+
+int run(const Options& options) {
   const World world;
   const Problem problem = makeProblem({}, world.view());
-  const std::vector<Task> tasks = makeTasks(world, count);
-  if (!log.empty()) {
-    writeOmplLog(problem, tasks.front(), log);
+  const std::vector<Task> tasks = makeTasks(world, options.tasks);
+  if (!options.log.empty()) {
+    writeOmplLog(problem, tasks.front(), options.log);
     return 0;
   }
-  lattice_planner::LatticePlanner lattice(problem.params);
-  Figures figures;
+  lattice_planner::LatticePlanner planner(problem.params);
+  Runs lattice;
   for (const Task& task : tasks) {
-    const sarn::TrajectoryPoint start{task.start.x, task.start.y, task.start.theta, 0.0, 0.0, 0.0};
-    const auto result = lattice.plan({start, task.goal, kTimeLimit}, problem.costs);
-    note(result, result.search_time, problem, figures);
+    const auto result = planner.plan(request(task, kTimeLimit), problem.costs);
+    lattice.push_back(noted(result, result.first_plan_time, problem));
   }
-  std::printf("{");
-  print("lattice", figures, tasks.size(), false);
+  print("lattice", "", lattice);
+  printMedian("lattice.search_ms", lattice, [](const Run& run) { return 1e3 * run.search; });
+  const auto few = std::min(static_cast<std::ptrdiff_t>(tasks.size()), std::ptrdiff_t{options.long_tasks});
+  const std::vector<Task> long_tasks(tasks.begin(), tasks.begin() + few);
   for (const std::string name : {"sst", "rrt", "kpiece"}) {
-    OmplPlanner planner(algorithmOf(name), problem.params);
-    figures = {};
-    for (const Task& task : tasks) {
-      const sarn::TrajectoryPoint start{task.start.x, task.start.y, task.start.theta, 0.0, 0.0, 0.0};
-      const auto outcome = planner.planMeasured({start, task.goal, kTimeLimit}, problem.costs);
-      note(outcome.result, outcome.first_solution_time, problem, figures);
-    }
-    print(name, figures, tasks.size(), name == "kpiece");
+    const Runs runs = runOmpl(name, problem, tasks, kTimeLimit);
+    print(name, "", runs);
+    printRatio(name, "", runs, lattice);
+    if (long_tasks.empty()) continue;
+    const Runs long_runs = runOmpl(name, problem, long_tasks, kLongTimeLimit);
+    print(name, "_10s", long_runs);
+    printRatio(name, "_10s", long_runs, lattice);
   }
+  std::printf("}\n");
   return 0;
 }
 
@@ -170,19 +221,20 @@ int run(int count, const std::string& log) {
 
 int main(int argc, char** argv) {
   try {
-    int count = 20;
-    std::string log;
+    Options options;
     for (int i = 1; i + 1 < argc; i += 2) {
       const std::string option = argv[i];
       if (option == "--tasks") {
-        count = std::stoi(argv[i + 1]);
+        options.tasks = std::stoi(argv[i + 1]);
+      } else if (option == "--long-tasks") {
+        options.long_tasks = std::stoi(argv[i + 1]);
       } else if (option == "--log") {
-        log = argv[i + 1];
+        options.log = argv[i + 1];
       } else {
-        throw std::invalid_argument(option + ": known are --tasks COUNT and --log FILE");
+        throw std::invalid_argument(option + ": known are --tasks COUNT, --long-tasks COUNT and --log FILE");
       }
     }
-    return run(count, log);
+    return run(options);
   } catch (const std::exception& error) {
     std::cerr << "lattice_planner_ompl_bench: " << error.what() << "\n";
     return 1;

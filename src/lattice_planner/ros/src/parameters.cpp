@@ -19,6 +19,9 @@ void forEachLiveField(Config& config, Params& params, Apply&& apply) {
   apply(config.heuristic_weight, params.heuristic_weight);
   apply(config.suboptimality_bound, params.suboptimality_bound);
   apply(config.improvement_effort, params.improvement_effort);
+  apply(config.least_improvement, params.least_improvement);
+  apply(config.promising_expansions, params.promising_expansions);
+  apply(config.hurry_after, params.hurry_after);
 }
 
 }  // namespace

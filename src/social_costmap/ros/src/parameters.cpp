@@ -27,6 +27,10 @@ void forEachLiveField(Config& config, Params& params, Apply&& apply) {
   apply(config.amplitude_time_factor, params.amplitude_time_factor);
   apply(config.variance_time_factor, params.variance_time_factor);
   apply(config.forbidden_radius_time_factor, params.forbidden_radius_time_factor);
+  apply(config.people_timeout, params.people_timeout);
+  apply(config.standing_speed, params.standing_speed);
+  apply(config.isotropic_standing, params.isotropic_standing);
+  apply(config.extrapolation_sigma_rate, params.extrapolation_sigma_rate);
   apply(config.uncertainty_factor, params.uncertainty_factor);
   apply(config.keep_amplitude, params.keep_amplitude);
   apply(config.forbidden_sigma_limit, params.forbidden_sigma_limit);
