@@ -45,7 +45,8 @@ ObstacleMemory::Verdict ObstacleMemory::judge(const Scan& scan, const Eigen::Vec
     nearest = std::min(nearest, seen.range);
   }
   if (looked && nearest > distance + kSeeThroughGap) return Verdict::kDrop;
-  return !looked && distance < scan.range_min + kSeeThroughGap ? Verdict::kKeepNear : Verdict::kKeep;
+  if (looked) return Verdict::kKeep;
+  return distance < scan.range_min + kSeeThroughGap ? Verdict::kKeepNear : Verdict::kSilent;
 }
 
 void ObstacleMemory::forget(const Scan& scan, const sarn::Pose2D& odom_from_sensor, double stamp) {
@@ -58,6 +59,8 @@ void ObstacleMemory::forget(const Scan& scan, const sarn::Pose2D& odom_from_sens
     if (verdict == Verdict::kKeepNear) {
       const double latest = point.seen + params_.near_memory_time;
       point.expires = std::max(point.expires, std::min(latest, stamp + params_.memory_time));
+    } else if (verdict == Verdict::kSilent) {
+      point.expires = std::min(point.expires, point.seen + params_.silent_memory_time);
     }
     it = verdict == Verdict::kDrop || far || stamp > point.expires ? points_.erase(it) : std::next(it);
   }

@@ -58,7 +58,9 @@ sarn::Twist2D limitToFreeSpace(const sarn::Twist2D& wanted, const Points& points
 }
 
 ScanBrake::ScanBrake(const ScanBrakeParams& params)
-    : params_(params), memory_({params.memory_time, params.near_memory_time, params.memory_radius}) {}
+    : params_(params),
+      memory_(
+          {params.memory_time, params.near_memory_time, params.memory_radius, params.silent_memory_time}) {}
 
 void ScanBrake::insertScan(const Scan& scan, const sarn::Pose2D& odom_from_sensor, double stamp) {
   memory_.insert(scan, odom_from_sensor, stamp);

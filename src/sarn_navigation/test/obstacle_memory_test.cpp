@@ -72,10 +72,24 @@ TEST(ObstacleMemory, forgetsAtOnceWhatABeamLooksThrough) {
   }
 }
 
-TEST(ObstacleMemory, nanProvesNothing) {
-  ObstacleMemory memory({2.0, 10.0, 2.0});
+TEST(ObstacleMemory, nanProvesNothingAtOnce) {
+  ObstacleMemory memory({2.0, 10.0, 2.0, 0.6});
   memory.insert(postAt(1.0, kNan), {}, 1.0);
-  memory.insert(scanOf(kNan), {}, 2.0);
+  memory.insert(scanOf(kNan), {}, 1.55);
+  EXPECT_GT(memory.size(), 0U) << "black trousers may return nothing for a moment";
+}
+
+TEST(ObstacleMemory, forgetsWhoPassedWhereThereIsNothingBehind) {
+  ObstacleMemory memory({2.0, 10.0, 2.0, 0.6});
+  memory.insert(postAt(1.0, kNan), {}, 1.0);
+  memory.insert(scanOf(kNan), {}, 1.65);
+  EXPECT_EQ(memory.size(), 0U);
+}
+
+TEST(ObstacleMemory, silenceSaysNothingOfWhatIsTooNearToBeSeen) {
+  ObstacleMemory memory({2.0, 10.0, 2.0, 0.6});
+  memory.insert(postAt(0.5, kNan), {}, 1.0);
+  memory.insert(scanOf(kNan), {}, 1.65);
   EXPECT_GT(memory.size(), 0U);
 }
 

@@ -36,13 +36,17 @@ struct ObstacleMemoryParams {
   double memory_time = 2.0;        // [s] an obstacle outside the view is remembered
   double near_memory_time = 60.0;  // [s] an obstacle within the view but nearer than the sensor can see
   double memory_radius = 2.0;      // [m] from the robot; what is further away is forgotten
+  double silent_memory_time =
+      0.6;  // [s] an obstacle within the view and range where nothing returns any more
 };
 
 /// Recent scan returns in the odom frame, one per cell of 5 cm.
 ///
 /// A depth camera sees 58 degrees and nothing nearer than 0.45 m, while what stops the robot is mostly beside
 /// or close in front of it. A return that leaves the view is therefore remembered for a while; one that a
-/// later beam looks through is dropped at once.
+/// later beam looks through is dropped at once. Where nothing is within range behind it, no beam can look
+/// through: a depth camera gives NaN there, as it may for a moment on black trousers, so that such a return
+/// is dropped after a short while.
 class ObstacleMemory {
  public:
   explicit ObstacleMemory(const ObstacleMemoryParams& params) : params_(params) {}
@@ -60,7 +64,7 @@ class ObstacleMemory {
     double seen = 0.0;         // [s] when a beam last hit it
     double expires = 0.0;      // [s]
   };
-  enum class Verdict { kKeep, kKeepNear, kDrop };
+  enum class Verdict { kKeep, kKeepNear, kSilent, kDrop };
   [[nodiscard]] static Verdict judge(const Scan& scan, const Eigen::Vector2d& in_sensor);
   void forget(const Scan& scan, const sarn::Pose2D& odom_from_sensor, double stamp);
 

@@ -19,8 +19,10 @@ struct ScanBrakeParams {
   double memory_time = 2.0;        // [s] returns outside the view are remembered
   double near_memory_time = 60.0;  // [s] the same for what is in the view, but nearer than range_min
   double memory_radius = 2.0;      // [m] around the sensor
-  double scan_timeout = 0.5;       // [s] an older scan makes the robot stand still; the same for odometry
-  double command_timeout = 0.5;    // [s] after which the last command no longer counts
+  double silent_memory_time =
+      0.6;                    // [s] the same for what is in the view and within range, where nothing returns
+  double scan_timeout = 0.5;  // [s] an older scan makes the robot stand still; the same for odometry
+  double command_timeout = 0.5;  // [s] after which the last command no longer counts
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {
@@ -32,6 +34,7 @@ struct ScanBrakeParams {
     v("memory_time", p.memory_time, {0.0, 60.0});
     v("near_memory_time", p.near_memory_time, {0.0, 300.0});
     v("memory_radius", p.memory_radius, {0.5, 20.0});
+    v("silent_memory_time", p.silent_memory_time, {0.0, 60.0});
     v("scan_timeout", p.scan_timeout, {0.01, 10.0});
     v("command_timeout", p.command_timeout, {0.01, 10.0});
   }
