@@ -85,6 +85,21 @@ TEST_F(Plugins, layerKeepsWallsAndStaysBelowThem) {
   EXPECT_EQ(costAt(5.0, 3.0), 0);
 }
 
+// As costmap_2d's inflation: what forbids is shown in unknown space, too, where navfn may be let through.
+TEST_F(Plugins, layerForbidsPeopleInUnknownSpaceAndLeavesTheRestUnknown) {
+  walls_->addUnknown(4.0, 1.0, 7.0, 5.0);
+  addSocialLayer();
+  tell({kStanding});
+  costmap_->updateMap();
+  EXPECT_EQ(costAt(5.0, 3.0), 254);
+  EXPECT_EQ(costAt(5.4, 3.0), 254) << "inside the forbidden radius";
+  EXPECT_EQ(costAt(5.6, 3.0), 255) << "dear, but unknown";
+  tell({});
+  walls_->matchSize();  // draws anew
+  costmap_->updateMap();
+  EXPECT_EQ(costAt(5.0, 3.0), 255);
+}
+
 TEST_F(Plugins, layerFollowsANewSize) {
   addSocialLayer();
   tell({kStanding});

@@ -121,7 +121,9 @@ void SocialLayer::updateCosts(costmap_2d::Costmap2D& master, int min_i, int min_
     for (int y = std::max(rect.min_y, inside.min_y); y < std::min(rect.max_y, inside.max_y); ++y) {
       for (int x = std::max(rect.min_x, inside.min_x); x < std::min(rect.max_x, inside.max_x); ++x) {
         const std::size_t i = grid.index({x, y});
-        if (cells[i] != sarn::kNoInformation) cells[i] = std::max(cells[i], present.cells[i]);
+        const std::uint8_t cost = present.cells[i];
+        const bool unknown = cells[i] == sarn::kNoInformation;
+        if (unknown ? cost >= sarn::kInscribedObstacle : cost > cells[i]) cells[i] = cost;
       }
     }
   }
