@@ -214,7 +214,7 @@ float DistanceField::keyOf(float label, const sarn::CellIndex& cell) const {
 void DistanceField::push(float label, const sarn::CellIndex& cell) {
   const auto number = static_cast<std::int64_t>(keyOf(label, cell) * buckets_per_cost_);
   const auto offset = std::clamp<std::int64_t>(number - first_number_, 0, kBuckets - 1);
-  buckets_[(first_bucket_ + static_cast<std::size_t>(offset)) % kBuckets].push_back({label, cell});
+  buckets_[(first_bucket_ + static_cast<std::size_t>(offset)) % kBuckets].push_back({label, cell, static_cast<std::int32_t>(number)});
   first_row_ = std::min(first_row_, cell.y);
   last_row_ = std::max(last_row_, cell.y);
   ++pending_;
@@ -232,7 +232,7 @@ bool DistanceField::advanceOneBucket() {
     --pending_;
     const auto index = static_cast<std::uint32_t>(task_.geometry.index(entry.cell));
     if (entry.label > labels_[index]) continue;
-    if (static_cast<std::int64_t>(keyOf(entry.label, entry.cell) * buckets_per_cost_) > first_number_) {
+    if (entry.number > first_number_) {
       push(entry.label, entry.cell);  // it did not fit into the ring
       continue;
     }

@@ -13,11 +13,12 @@ constexpr double kCell = 0.1;             // [m]
 constexpr double kTimeStep = 0.5;         // [s]
 constexpr double kLongestHorizon = 15.0;  // [s]
 constexpr double kDetourReach = 3.0;      // [m] longer than the shortest way that is still of interest
+constexpr double kLateDetourReach = 1.5;  // [m] likewise, where those who stay are known
 constexpr double kLeastReach = 1.0;       // [m] around the start
 constexpr double kEase = 0.97;            // few directions make a path this much too long
 constexpr int kPadding = 3;               // [cells] the longest move
-constexpr float kForbiddenRate =
-    20.0F;  // [of time_weight] for a cell with a person: a start inside must get out
+// [of time_weight] For a cell with a person: a start inside must get out.
+constexpr float kForbiddenRate = 20.0F;
 
 }  // namespace
 
@@ -70,8 +71,11 @@ void SpaceTimeField::sampleStatic(const SpaceTimeTask& task, DistanceField& dist
   costs_.resize(std::max(costs_.size(), static_cast<std::size_t>(steps_) + 1));
   for (int k = 0; k <= steps_; ++k) costs_[static_cast<std::size_t>(k)].assign(size, kInfinity);
   const double per_metre = task.time_weight / task.max_speed + task.length_weight;
-  distance.computeDetours(static_cast<float>(kDetourReach * per_metre));
-  if (late != nullptr) late->computeDetours(static_cast<float>(kDetourReach * per_metre));
+  if (late != nullptr) {
+    late->computeDetours(static_cast<float>(kLateDetourReach * per_metre));
+  } else {
+    distance.computeDetours(static_cast<float>(kDetourReach * per_metre));
+  }
   alone_.assign(size, kInfinity);
   std::vector<float>& last = costs_[static_cast<std::size_t>(steps_)];
   for (int row = kPadding; row < height_ - kPadding; ++row) {
@@ -84,8 +88,9 @@ void SpaceTimeField::sampleStatic(const SpaceTimeTask& task, DistanceField& dist
       const auto index =
           static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column);
       static_rates_[index] = (*task.static_rate)[cost];
-      alone_[index] = distance.knownGuess(cell);
-      last[index] = late != nullptr ? late->knownGuess(cell) : alone_[index];
+      const float alone = distance.knownGuess(cell);
+      last[index] = late != nullptr ? late->knownGuess(cell) : alone;
+      alone_[index] = late != nullptr && alone == kInfinity ? 0.0F : alone;
     }
   }
 }

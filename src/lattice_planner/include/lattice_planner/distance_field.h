@@ -76,6 +76,7 @@ class DistanceField {
   struct Entry {
     float label = 0.0F;
     sarn::CellIndex cell;
+    std::int32_t number = 0;  // of its bucket
   };
   struct Move {
     int dx;
