@@ -14,8 +14,24 @@ namespace {
 
 constexpr int kSteps = 24;               // of Gauss and Newton
 constexpr double kFirstScale = 4.0;      // of align_scale; halved with each step
+constexpr double kTurn = 0.75;           // of align_sigma_theta: headings that the fit starts from too
 constexpr std::size_t kFitPoints = 160;  // are enough for three numbers
 constexpr double kConverged = 1e-4;      // [m], [rad]
+
+/// Every so many points are enough for a fit.
+std::size_t strideOf(const std::vector<SeenPoint>& points) {
+  return std::max<std::size_t>(1, points.size() / kFitPoints);
+}
+
+/// (x, y, theta) of a pose from the prior one.
+Eigen::Vector3d offsetOf(const sarn::Pose2D& prior, const sarn::Pose2D& pose) {
+  return {pose.x - prior.x, pose.y - prior.y, sarn::angleDifference(prior.theta, pose.theta)};
+}
+
+Eigen::Vector3d priorInformation(const BackgroundParams& params) {
+  const Eigen::Array3d sigma(params.align_sigma_xy, params.align_sigma_xy, params.align_sigma_theta);
+  return sigma.square().inverse().matrix();
+}
 
 }  // namespace
 
@@ -73,20 +89,26 @@ bool Background::unknown(const Eigen::Vector2d& point) const {
   return !hasMap() || !cell || map_.at(*cell) == sarn::kMapUnknown;
 }
 
-sarn::Pose2D Background::fit(const std::vector<SeenPoint>& points,
-                             const sarn::Pose2D& map_from_sensor) const {
-  if (!params_.align || !hasMap() || points.empty()) return map_from_sensor;
-  const std::size_t every = std::max<std::size_t>(1, points.size() / kFitPoints);
-  const Eigen::Vector3d prior(params_.align_sigma_xy, params_.align_sigma_xy, params_.align_sigma_theta);
-  const Eigen::Matrix3d prior_information = prior.array().square().inverse().matrix().asDiagonal();
-  sarn::Pose2D pose = map_from_sensor;
-  double widening = kFirstScale;
+double Background::misfit(const std::vector<SeenPoint>& points, const sarn::Pose2D& prior,
+                          const sarn::Pose2D& pose) const {
+  const Eigen::Vector3d offset = offsetOf(prior, pose);
+  double sum = 0.5 * priorInformation(params_).cwiseProduct(offset).dot(offset);
+  for (std::size_t i = 0; i < points.size(); i += strideOf(points)) {
+    const double ratio =
+        slope(pose * points[i].position).distance / std::hypot(params_.align_scale, points[i].sigma);
+    sum += 0.5 * ratio * ratio / (1.0 + ratio * ratio);
+  }
+  return sum;
+}
+
+sarn::Pose2D Background::refine(const std::vector<SeenPoint>& points, const sarn::Pose2D& prior,
+                                const sarn::Pose2D& start, double widening) const {
+  const Eigen::Vector3d prior_information = priorInformation(params_);
+  sarn::Pose2D pose = start;
   for (int step = 0; step < kSteps; ++step, widening = std::max(1.0, 0.5 * widening)) {
-    const Eigen::Vector3d offset(pose.x - map_from_sensor.x, pose.y - map_from_sensor.y,
-                                 sarn::angleDifference(map_from_sensor.theta, pose.theta));
-    Eigen::Matrix3d information = prior_information;
-    Eigen::Vector3d pull = -prior_information * offset;
-    for (std::size_t i = 0; i < points.size(); i += every) {
+    Eigen::Matrix3d information = prior_information.asDiagonal();
+    Eigen::Vector3d pull = -prior_information.cwiseProduct(offsetOf(prior, pose));
+    for (std::size_t i = 0; i < points.size(); i += strideOf(points)) {
       const Eigen::Vector2d place = pose * points[i].position;
       const Slope wall = slope(place);
       const double scale = std::hypot(widening * params_.align_scale, points[i].sigma);
@@ -99,11 +121,28 @@ sarn::Pose2D Background::fit(const std::vector<SeenPoint>& points,
       pull -= weight * wall.distance * jacobian;
     }
     const Eigen::Vector3d move = information.ldlt().solve(pull);
-    if (!move.allFinite()) return map_from_sensor;
+    if (!move.allFinite()) return prior;
     pose = {pose.x + move.x(), pose.y + move.y(), sarn::wrapAngle(pose.theta + move.z())};
     if (widening == 1.0 && move.cwiseAbs().maxCoeff() < kConverged) break;
   }
   return pose;
+}
+
+sarn::Pose2D Background::fit(const std::vector<SeenPoint>& points,
+                             const sarn::Pose2D& map_from_sensor) const {
+  if (!params_.align || !hasMap() || points.empty()) return map_from_sensor;
+  sarn::Pose2D best = refine(points, map_from_sensor, map_from_sensor, kFirstScale);
+  double least = misfit(points, map_from_sensor, best);
+  for (const double turn : {-kTurn, kTurn}) {
+    sarn::Pose2D start = map_from_sensor;
+    start.theta += turn * params_.align_sigma_theta;
+    const sarn::Pose2D pose = refine(points, map_from_sensor, start, 1.0);
+    const double cost = misfit(points, map_from_sensor, pose);
+    if (!(cost < least)) continue;
+    least = cost;
+    best = pose;
+  }
+  return best;
 }
 
 }  // namespace sarn_perception

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sarn_common/angles.h"
 #include "sarn_perception/assignment.h"
 
 namespace sarn_perception {
@@ -27,7 +28,8 @@ Fit detectionFit(const WalkingFilter& person, const Eigen::Vector2d& position, d
   const double distance = innovation.dot(covariance.inverse() * innovation);
   Fit fit;
   fit.cost = distance + std::log(covariance.determinant());
-  fit.gated = distance > params.gate || innovation.norm() > params.max_gate_distance;
+  const double newcomer = -2.0 * std::log(2.0 * sarn::kPi * params.newcomer_density);  // two dimensions
+  fit.gated = distance > params.gate || fit.cost > newcomer || innovation.norm() > params.max_gate_distance;
   return fit;
 }
 

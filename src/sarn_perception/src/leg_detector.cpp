@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxGap = 3;               // [beams] without a return inside a cluster
 constexpr double kInFront = 0.10;                // [m] nearer than a leg: hides what is beside it
+constexpr double kSamePlace = 0.8;               // of a leg's diameter: two cannot be so near to each other
 constexpr double kMeanDepth = 0.25 * sarn::kPi;  // of a visible half circle, in radii behind its front
 
 Eigen::Vector2d onRay(double range, double bearing) {
@@ -167,6 +168,24 @@ void LegDetector::addLegs(const Cluster& cluster, const RangeProfile& profile, c
   }
 }
 
+void LegDetector::joinParts(std::vector<Leg>& legs) const {
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    for (std::size_t j = i + 1; j < legs.size();) {
+      Leg& one = legs[i];
+      const Leg& other = legs[j];
+      if ((one.position - other.position).norm() >= kSamePlace * params_.leg_diameter) {
+        ++j;
+        continue;
+      }
+      const double share = one.sigma * one.sigma / (one.sigma * one.sigma + other.sigma * other.sigma);
+      one.position += share * (other.position - one.position);
+      one.sigma = std::min(one.sigma, other.sigma);
+      one.confidence = std::max(one.confidence, other.confidence);
+      legs.erase(legs.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+  }
+}
+
 LegView LegDetector::detect(const PlanarScan& scan, const Background& background,
                             const sarn::Pose2D& map_from_sensor) const {
   LegView view;
@@ -180,6 +199,7 @@ LegView LegDetector::detect(const PlanarScan& scan, const Background& background
   for (const Cluster& cluster : clusters(seen, view.profile)) {
     addLegs(cluster, view.profile, background, fitted, view.legs);
   }
+  joinParts(view.legs);
   return view;
 }
 

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "sarn_common/angles.h"
+
 namespace sarn_perception {
 namespace {
 
@@ -32,6 +36,33 @@ TEST(LegAssociation, leavesFarLegsAlone) {
   const LegShares shares = shareLegs({&me}, legs, allOf(legs), 0.0, {});
   EXPECT_EQ(shares.of_person[0].size(), 2U) << "nobody has three legs";
   EXPECT_EQ(shares.unclaimed.size(), 2U);
+}
+
+/// A track that nobody has seen for long took over whoever turned up near it, and their jump for a velocity.
+TEST(LegAssociation, takesAFarStrangerForANewcomer) {
+  const std::vector<Leg> stranger{{{0.7, 0.0}, 0.01}};
+  const WalkingFilter lost({0.0, 0.0}, 0.6, 0.5);
+  TrackerParams anybody;
+  anybody.newcomer_density = 1e-3;  // nobody new ever comes
+  EXPECT_FALSE(detectionFit(lost, stranger[0].position, 0.16, 0.0, anybody).gated);
+  EXPECT_TRUE(detectionFit(lost, stranger[0].position, 0.16, 0.0, {}).gated);
+  EXPECT_TRUE(shareLegs({&lost}, stranger, allOf(stranger), 0.0, {}).of_person[0].empty());
+  const std::vector<Leg> own{{{0.3, 0.0}, 0.01}};
+  const WalkingFilter seen({0.0, 0.0}, 0.05, 0.5);
+  EXPECT_EQ(shareLegs({&seen}, own, allOf(own), 0.0, {}).of_person[0].size(), 1U) << "a leg swings that far";
+}
+
+/// The rule is N(z; S) against the density of newcomers.
+TEST(LegAssociation, weighsANewcomerByTheDensity) {
+  const WalkingFilter person({0.0, 0.0}, 0.3, 0.5);
+  const double variance = 0.3 * 0.3 + 0.1 * 0.1;
+  const Eigen::Vector2d place(0.4, 0.2);
+  const double density = std::exp(-0.5 * place.squaredNorm() / variance) / (2.0 * sarn::kPi * variance);
+  TrackerParams params;
+  params.newcomer_density = 0.99 * density;
+  EXPECT_FALSE(detectionFit(person, place, 0.1, 0.0, params).gated);
+  params.newcomer_density = 1.01 * density;
+  EXPECT_TRUE(detectionFit(person, place, 0.1, 0.0, params).gated);
 }
 
 TEST(LegAssociation, looksWhereThePersonWasThen) {

@@ -54,6 +54,15 @@ TEST_F(LegDetectorTest, dividesTwoLegsThatStandTogether) {
   EXPECT_EQ(found.size(), 2U);
 }
 
+/// A leg torn in two passed for both legs of its person, and moved them by 0.15 m from one scan to the next.
+TEST_F(LegDetectorTest, takesATornLegForOne) {
+  PlanarScan scan = scanOf(sensor_, {{{4.0, 3.0}, 0.056}}, 640, 1.02);
+  std::fill(scan.ranges.begin() + 318, scan.ranges.begin() + 323, std::nanf(""));
+  const auto found = detector_.detect(scan, background_, sensor_).legs;
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR((sensor_ * found[0].position - Eigen::Vector2d(4.0, 3.0)).norm(), 0.0, 0.02);
+}
+
 TEST_F(LegDetectorTest, refusesWhatIsWiderThanAPerson) {
   EXPECT_TRUE(legs(sensor_, {{{4.0, 3.0}, 0.6}}).empty()) << "a pillar of 1.2 m";
 }

@@ -38,11 +38,8 @@ TEST(Parameters, shippedTrackerFilesNameEveryField) {
   for (const char* section : {"background", "legs", "bodies", "tracker"}) file.remove(section);
   expectFixture<PeopleTrackerParams>(file, "people_tracker.yaml");
   const YAML::Node lidar = YAML::LoadFile("config/people_tracker_lidar.yaml");
-  EXPECT_EQ(lidar.size(), 3U);
+  EXPECT_EQ(lidar.size(), 2U);
   EXPECT_FALSE(lidar["use_bodies"].as<bool>());
-  TrackerParams tracker;
-  EXPECT_TRUE(sarn::setFromYaml(lidar["tracker"], tracker).empty());
-  EXPECT_DOUBLE_EQ(tracker.gate, 6.0);
   expectFixture<LegParams>(lidar["legs"], "people_tracker_lidar.yaml");
 }
 

@@ -65,6 +65,38 @@ inline PlanarScan scanOf(const sarn::Pose2D& sensor, const std::vector<Disc>& di
   return scan;
 }
 
+/// The scan of what a map shows as occupied, exact to 5 mm.
+inline PlanarScan scanOf(const sarn::Pose2D& sensor, const sarn::OccupancyMap& map, int beams,
+                         double field_of_view) {
+  PlanarScan scan = scanOf(sensor, std::vector<Disc>{}, beams, field_of_view);
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const double bearing =
+        sensor.theta - 0.5 * field_of_view + field_of_view / beams * static_cast<double>(i);
+    const Eigen::Vector2d direction(std::cos(bearing), std::sin(bearing));
+    double range = 0.0;
+    for (;; range += 0.005) {
+      const Eigen::Vector2d place = sensor.position() + range * direction;
+      const auto cell = map.geometry.cellAt(place.x(), place.y());
+      if (!cell || map.at(*cell) == sarn::kMapOccupied) break;
+    }
+    scan.ranges[i] = static_cast<float>(range);
+  }
+  return scan;
+}
+
+/// Marks a box of a map as occupied; corners [m].
+inline void addBox(const Eigen::Vector2d& least, const Eigen::Vector2d& most, sarn::OccupancyMap& map) {
+  for (int y = 0; y < map.geometry.height; ++y) {
+    for (int x = 0; x < map.geometry.width; ++x) {
+      const Eigen::Vector2d center(map.geometry.origin_x + (x + 0.5) * map.geometry.resolution,
+                                   map.geometry.origin_y + (y + 0.5) * map.geometry.resolution);
+      if ((center.array() > least.array()).all() && (center.array() < most.array()).all()) {
+        map.at({x, y}) = sarn::kMapOccupied;
+      }
+    }
+  }
+}
+
 /// The legs of somebody who stands there and looks along `heading` [rad].
 inline std::vector<Disc> legsAt(const Eigen::Vector2d& place, double heading = 0.0) {
   const Eigen::Vector2d side(-0.09 * std::sin(heading), 0.09 * std::cos(heading));

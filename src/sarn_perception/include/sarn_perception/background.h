@@ -23,7 +23,8 @@ struct SeenPoint {
 /// that swallows people at some metres (1.5 deg are 13 cm at 5 m), so the points are fitted to the map first:
 /// the likelihood field of Thrun, Burgard and Fox 2005 (*Probabilistic Robotics*, sec. 6.4), maximised by
 /// Gauss-Newton steps from the localisation's pose, which stays the prior. Points far from walls (people)
-/// pull less and less (Geman and McClure 1987).
+/// pull less and less (Geman and McClure 1987). Such a fit has local optima, in which one wall passes for
+/// another: of those reached from several headings the likeliest is taken.
 class Background {
  public:
   /// Throws std::invalid_argument that names every problem.
@@ -52,6 +53,13 @@ class Background {
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  // [m/m]
   };
   [[nodiscard]] Slope slope(const Eigen::Vector2d& point) const;
+  /// The local optimum of the fit that Gauss-Newton reaches from `start`, the kernel at first `widening`
+  /// wide.
+  [[nodiscard]] sarn::Pose2D refine(const std::vector<SeenPoint>& points, const sarn::Pose2D& prior,
+                                    const sarn::Pose2D& start, double widening) const;
+  /// What the fit minimises: -ln of the posterior of a pose, up to a constant.
+  [[nodiscard]] double misfit(const std::vector<SeenPoint>& points, const sarn::Pose2D& prior,
+                              const sarn::Pose2D& pose) const;
   [[nodiscard]] double cellDistance(const sarn::CellIndex& cell) const;
 
   BackgroundParams params_;

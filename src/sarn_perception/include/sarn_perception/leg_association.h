@@ -16,7 +16,10 @@ struct LegShares {
 };
 
 /// -2 ln of the likelihood of a detection, up to a constant: squared Mahalanobis distance plus ln |S|
-/// (Bar-Shalom, Li and Kirubarajan 2001). `gated`: the distance is beyond the gate.
+/// (Bar-Shalom, Li and Kirubarajan 2001). `gated`: the distance is beyond the gate, or the detection is
+/// likelier that of a newcomer, N(z; S) < newcomer_density (the density of new targets of Reid 1979, "An
+/// Algorithm for Tracking Multiple Targets"). Who was out of sight for long may be anywhere, and so nearly
+/// everywhere: without the second rule they would take over whoever turns up.
 struct Fit {
   double cost = 0.0;
   bool gated = true;

@@ -28,7 +28,8 @@ struct LegView {
 /// Legs in a planar scan of any field of view and number of beams: beams that the map explains are left out,
 /// neighbouring ones that lie together make clusters, and clusters as wide as a leg, or as two side by side,
 /// are legs (the width and the number of points: features of Arras, Mozos and Burgard 2007, "Using Boosted
-/// Features for the Detection of People in 2D Range Data"). A cluster of two is given back as two legs.
+/// Features for the Detection of People in 2D Range Data"). A cluster of two is given back as two legs; parts
+/// of one leg as one.
 class LegDetector {
  public:
   /// Throws std::invalid_argument that names every problem.
@@ -58,6 +59,8 @@ class LegDetector {
   [[nodiscard]] static bool cutOff(const Cluster& cluster, const RangeProfile& profile);
   void addLegs(const Cluster& cluster, const RangeProfile& profile, const Background& background,
                const sarn::Pose2D& map_from_sensor, std::vector<Leg>& legs) const;
+  /// Two legs that stand in the same place are parts of one, which noise has torn.
+  void joinParts(std::vector<Leg>& legs) const;
 
   LegParams params_;
 };

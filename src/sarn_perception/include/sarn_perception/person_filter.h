@@ -13,8 +13,8 @@ namespace sarn_perception {
 struct GaitModel {
   double stance_sigma = 0.09;  // [m] of a leg's offset on each axis
   double swing_time = 0.15;    // [s] times the speed: what comes to that along the way
-  double settle_time = 0.25;   // [s] in which an offset that was seen is forgotten
-  double max_speed = 2.5;      // [m/s] nobody is faster
+  double settle_time = 0.4;    // [s] in which an offset that was seen is forgotten
+  double max_speed = 2.0;      // [m/s] nobody is faster
 };
 
 /// Positions that depend on a person's state linearly: value = h state + noise.

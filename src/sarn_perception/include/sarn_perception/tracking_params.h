@@ -104,7 +104,7 @@ struct TrackerParams {
   double changing_density = 15.0;  // [m^2/s^3] of who is seen starting, stopping or turning
   double steady_time = 1.5;        // [s] mean time of steady walking
   double changing_time = 0.3;      // [s] mean time of a change
-  double walking_density = 0.15;   // [m^2/s^3] of who walked when last seen
+  double walking_density = 0.2;    // [m^2/s^3] of who walked when last seen
   double standing_density = 0.01;  // [m^2/s^3] of who stood when last seen
   double walking_speed = 0.5;      // [m/s] from here on a person counts as walking, in the two above
   double stay_distance = 0.2;      // [m] who keeps to a place this wide around where they came to a halt,
@@ -116,11 +116,12 @@ struct TrackerParams {
   double body_sigma = 0.05;            // [m] of a person's middle from the torso, likewise
   double stance_sigma = 0.09;          // [m] of a leg about the middle between both, on each axis
   double swing_time = 0.15;            // [s] times the speed: what comes to that along the way
-  double settle_time = 0.25;           // [s] in which a leg's offset from the middle is forgotten
+  double settle_time = 0.4;            // [s] in which a leg's offset from the middle is forgotten
   double gait_sigma = 0.16;            // [m] of a leg about a person's middle, in the association
-  double max_speed = 2.5;              // [m/s] nobody is faster
+  double max_speed = 2.0;              // [m/s] nobody is faster
   double gate = 9.21;                  // squared Mahalanobis distance; 99 % in two dimensions
   double max_gate_distance = 0.9;      // [m] however uncertain a track is
+  double newcomer_density = 0.3;       // [1/m^2] of people nobody knows yet; likelier ones get the detection
   double max_leg_separation = 0.75;    // [m] between the legs of one person
   double min_person_distance = 0.35;   // [m] two tracks nearer to each other are one person
   double birth_existence = 0.2;        // probability of a person where nobody was known
@@ -163,6 +164,7 @@ struct TrackerParams {
     v("max_speed", p.max_speed, {0.1, 20.0});
     v("gate", p.gate, {0.1, 100.0});
     v("max_gate_distance", p.max_gate_distance, {0.05, 10.0});
+    v("newcomer_density", p.newcomer_density, {1e-6, 100.0});
     v("max_leg_separation", p.max_leg_separation, {0.05, 2.0});
     v("min_person_distance", p.min_person_distance, {0.0, 2.0});
     v("birth_existence", p.birth_existence, {0.001, 0.999});
