@@ -107,9 +107,9 @@ struct TrackerParams {
   double walking_density = 0.2;    // [m^2/s^3] of who walked when last seen
   double standing_density = 0.01;  // [m^2/s^3] of who stood when last seen
   double walking_speed = 0.5;      // [m/s] from here on a person counts as walking, in the two above
-  double stay_distance = 0.2;      // [m] who keeps to a place this wide around where they came to a halt,
+  double stay_distance = 0.15;     // [m] who keeps to a place this wide around where they came to a halt,
   double stay_time = 0.8;          // [s] for so long,
-  double stay_speed = 0.3;         // [m/s] no faster at last: stands, and goes on standing when out of view
+  double stay_speed = 0.2;         // [m/s] no faster at last: stands, and goes on standing when out of view
   double stay_wander = 0.005;      // [m^2/s] growth of the variance of their place on each axis meanwhile
   double initial_speed_sigma = 0.6;    // [m/s] on each axis, of a new track
   double leg_sigma = 0.01;             // [m] of a leg, on each axis, beside what the detector tells
