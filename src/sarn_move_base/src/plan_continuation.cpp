@@ -97,18 +97,18 @@ bool PlanContinuation::keepsLast(const ContinuationRequest& request, const PlanR
 
 ContinuedPlan PlanContinuation::search(const sarn::TrajectoryPoint& start, const ContinuationRequest& request,
                                        const sarn::TimedCostmapView& costs) {
-  const auto searchTo = [&](const sarn::Pose2D& goal) {
+  const auto plan_to = [&](const sarn::Pose2D& goal) {
     ContinuedPlan plan{planner_.plan({start, goal, params_.planning_timeout, request.stop}, costs), goal};
     const PlanResult& r = plan.result;
     plan.search = SearchReport{r.search_time, r.expansions, r.bound, r.timed_out,
                                lattice_planner::isDrivable(r.status) && !r.trajectory.empty()};
     return plan;
   };
-  ContinuedPlan plan = searchTo(request.goal);
+  ContinuedPlan plan = plan_to(request.goal);
   const double tolerance = std::max(request.tolerance, params_.default_tolerance);
   if (!goalIsTaken(plan.result.status) || tolerance <= 0.0) return plan;
   const auto free = nearestFree(costs, request.goal, tolerance, planner_.params().forbidden_cost);
-  return free ? searchTo(*free) : plan;
+  return free ? plan_to(*free) : plan;
 }
 
 ContinuedPlan PlanContinuation::plan(const ContinuationRequest& request,
