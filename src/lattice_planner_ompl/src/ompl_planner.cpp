@@ -117,7 +117,9 @@ OmplOutcome OmplPlanner::planMeasured(const lattice_planner::PlanRequest& reques
   const auto first = ob::plannerOrTerminationCondition(
       out_of_time, ob::PlannerTerminationCondition([&] { return definition->hasExactSolution(); }));
   (void)planner->solve(first);
-  if (definition->hasExactSolution()) outcome.first_solution_time = since(begin);
+  if (definition->hasExactSolution() && goal->firstReached()) {
+    outcome.first_solution_time = std::chrono::duration<double>(*goal->firstReached() - begin).count();
+  }
   const bool improves = algorithm_ == OmplAlgorithm::kSst;
   if (improves && definition->hasExactSolution() && !out_of_time) (void)planner->solve(out_of_time);
 

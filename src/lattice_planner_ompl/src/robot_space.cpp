@@ -180,7 +180,12 @@ BrakingGoal::BrakingGoal(const ob::SpaceInformationPtr& si, const Problem& probl
 }
 
 double BrakingGoal::distanceGoal(const ob::State* state) const {
-  const sarn::TrajectoryPoint point = pointOf(state);
+  const double distance = distanceFrom(pointOf(state));
+  if (distance <= threshold_ && !first_reached_) first_reached_ = std::chrono::steady_clock::now();
+  return distance;
+}
+
+double BrakingGoal::distanceFrom(const sarn::TrajectoryPoint& point) const {
   const auto braking = brake(problem_, point);
   const sarn::TrajectoryPoint& end = braking.empty() ? point : braking.back();
   const double away = (end.pose().position() - goal_.position()).norm() - problem_.params.xy_goal_tolerance;

@@ -86,6 +86,7 @@ TEST_F(OmplTest, eachAlgorithmDrivesToTheGoalAndStops) {
     if (outcome.result.status == PlanStatus::kPartial) continue;  // random: the time may be too short
     ASSERT_EQ(outcome.result.status, PlanStatus::kComplete) << static_cast<int>(algorithm);
     EXPECT_GT(outcome.first_solution_time, 0.0);
+    EXPECT_LT(outcome.first_solution_time, outcome.result.search_time);
     expectSound(outcome.result.trajectory, request(1.0).goal);
     ++solved;
   }
@@ -199,6 +200,21 @@ TEST_F(OmplTest, outlineOfTheRobotIsLookedAtToo) {
   const Problem problem = makeProblem(params, problem_.costs);
   EXPECT_FALSE(isFree(problem, {1.0, 2.0, 0.0, 0.0, 0.0, 1.0})) << "its nose";
   EXPECT_TRUE(isFree(problem, {1.0, 2.0, 1.57, 0.0, 0.0, 1.0}));
+}
+
+TEST_F(OmplTest, goalRemembersWhenItWasFirstReached) {
+  const auto si = makeSpaceInformation(problem_, -1e-6);
+  const BrakingGoal goal(si, problem_, request(1.0).goal);
+  ompl::base::ScopedState<> state(si);
+  setState(state.get(), request(1.0).start);
+  EXPECT_GT(goal.distanceGoal(state.get()), 0.0);
+  EXPECT_FALSE(goal.firstReached());
+  setState(state.get(), {5.0, 2.0, 0.0, 0.0, 0.0, 3.0});
+  EXPECT_EQ(goal.distanceGoal(state.get()), 0.0);
+  ASSERT_TRUE(goal.firstReached());
+  const auto first = *goal.firstReached();
+  EXPECT_TRUE(goal.isSatisfied(state.get()));
+  EXPECT_EQ(*goal.firstReached(), first);
 }
 
 TEST_F(OmplTest, peopleForbidAPlaceOnlyAtTheirTime) {

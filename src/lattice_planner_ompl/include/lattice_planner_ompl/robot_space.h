@@ -6,7 +6,9 @@
 #include <ompl/base/goals/GoalRegion.h>
 #include <ompl/control/SpaceInformation.h>
 
+#include <chrono>
 #include <memory>
+#include <optional>
 
 #include "lattice_planner/footprint_check.h"
 #include "lattice_planner/planner_params.h"
@@ -64,10 +66,18 @@ class BrakingGoal : public ompl::base::GoalRegion {
   BrakingGoal(const ompl::base::SpaceInformationPtr& si, const Problem& problem, const sarn::Pose2D& goal);
   [[nodiscard]] double distanceGoal(const ompl::base::State* state) const override;
   [[nodiscard]] const sarn::Pose2D& pose() const { return goal_; }
+  /// When a planner first asked about a state of the goal: SST keeps its solutions to itself until its time
+  /// is over.
+  [[nodiscard]] const std::optional<std::chrono::steady_clock::time_point>& firstReached() const {
+    return first_reached_;
+  }
 
  private:
+  [[nodiscard]] double distanceFrom(const sarn::TrajectoryPoint& point) const;
+
   const Problem& problem_;
   sarn::Pose2D goal_;
+  mutable std::optional<std::chrono::steady_clock::time_point> first_reached_;
 };
 
 /// The motion from `from` to standstill, in steps, without `from`.
