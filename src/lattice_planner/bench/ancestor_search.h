@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 #include "ancestor_task.h"
+#include "sarn_common/timed_trajectory.h"
 
 namespace lattice_planner::bench {
 
@@ -18,13 +19,18 @@ class AncestorSearch {
   struct Plan {
     double cost = 0.0;  // without its discount of 10 for being at the goal
     std::size_t expansions = 0;
+    bool reached = false;  // the original does not tell
+    /// To the goal; cut short: to the top of the open list; empty: nothing is left to look at.
+    sarn::TimedTrajectory trajectory;
   };
 
   /// `params` is the ancestor's preset.
   explicit AncestorSearch(const PlannerParams& params) : task_(params) {}
-  /// Without a limit of time; nothing when there is no plan within `max_expansions`.
-  [[nodiscard]] std::optional<Plan> solve(const PlanRequest& request, const sarn::TimedCostmapView& costmap,
-                                          std::size_t max_expansions = 5000000);
+  /// Without a limit of time; cut short after `max_expansions`.
+  [[nodiscard]] Plan solve(const PlanRequest& request, const sarn::TimedCostmapView& costmap,
+                           std::size_t max_expansions = 5000000);
+  /// Of a heading [rad] in the map frame: 0 to 16.
+  [[nodiscard]] long headingBin(double theta) const;
   /// The task last solved.
   [[nodiscard]] const AncestorTask& task() const { return task_; }
 
@@ -32,7 +38,9 @@ class AncestorSearch {
   struct Node {
     AncestorTask::State state;
     double g = 0.0;
+    std::size_t parent = 0;
   };
+  [[nodiscard]] Plan planTo(const std::vector<Node>& nodes, std::size_t end, std::size_t expansions) const;
   [[nodiscard]] std::uint64_t keyOf(const AncestorTask::State& state) const;
 
   AncestorTask task_;

@@ -110,6 +110,15 @@ std::optional<double> AncestorTask::costOf(const sarn::TimedTrajectory& plan) co
   return cost;
 }
 
+sarn::TrajectoryPoint AncestorTask::pointOf(const State& state) const {
+  return {state.pose.x,
+          state.pose.y,
+          state.pose.theta,
+          lattice_.v(state.v),
+          lattice_.omega(state.omega),
+          request_.start.t + state.step * params_.time_step};
+}
+
 bool AncestorTask::isGoal(const State& state) const {
   const sarn::Pose2D& goal = request_.goal;
   return lattice_.v(state.v) == 0.0 && lattice_.omega(state.omega) == 0.0 &&

@@ -43,6 +43,8 @@ class AncestorTask {
                                              const sarn::Pose2D& end) const;
   /// The same for a whole plan: nothing when it is not one of this lattice, or forbidden.
   [[nodiscard]] std::optional<double> costOf(const sarn::TimedTrajectory& plan) const;
+  /// The state as a plan shows it.
+  [[nodiscard]] sarn::TrajectoryPoint pointOf(const State& state) const;
   /// Standing within the tolerances of the goal.
   [[nodiscard]] bool isGoal(const State& state) const;
   /// The ancestor's heuristic: the static layer's least cost to the goal, over 8 neighbours at full speed,

@@ -184,16 +184,16 @@ void compare(const Options& options, int task, const lattice_planner::PlanReques
   if (optimum && options.verbose) std::printf("{\"task\": %d, \"optimum\": %.1f}\n", task, *optimum);
   if (task >= options.ancestor) return;
   const auto theirs = rivals.ancestor.solve(request, view);
-  if (!theirs) return;
+  if (!theirs.reached) return;
   const auto charged = rivals.ancestor.task().costOf(ours.trajectory);  // as the ancestor would charge for it
   if (!charged) throw std::runtime_error("task " + std::to_string(task) + ": the plan is not the ancestor's");
-  measured.ancestor_cost.push_back(theirs->cost);
-  measured.ancestor_expansions.push_back(static_cast<double>(theirs->expansions));
-  measured.over_ancestor.push_back(percent(*charged, theirs->cost));
-  if (optimum) measured.ancestor_over_optimum.push_back(percent(theirs->cost, *optimum));
+  measured.ancestor_cost.push_back(theirs.cost);
+  measured.ancestor_expansions.push_back(static_cast<double>(theirs.expansions));
+  measured.over_ancestor.push_back(percent(*charged, theirs.cost));
+  if (optimum) measured.ancestor_over_optimum.push_back(percent(theirs.cost, *optimum));
   if (!options.verbose) return;
   std::printf("{\"task\": %d, \"charged\": %.1f, \"ancestor\": %.1f, \"ancestor_expansions\": %zu, ", task,
-              *charged, theirs->cost, theirs->expansions);
+              *charged, theirs.cost, theirs.expansions);
   std::printf("\"over_ancestor_pct\": %.3f}\n", measured.over_ancestor.back());
 }
 

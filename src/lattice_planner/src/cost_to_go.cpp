@@ -49,7 +49,8 @@ DistanceFieldTask CostToGo::fieldTask() const {
     task.floor_radius = table_.radius();
     task.floor_id = request.goal.theta;
     task.floor = [this](const sarn::CellIndex& cell) {
-      const Eigen::Vector2d p = task_.goal_from_map * task_.costmap.geometry.center(cell);
+      const Eigen::Vector2d center = task_.costmap.geometry.center(cell);
+      const Eigen::Vector2d p = task_.inGoalFrame(center.x(), center.y());
       return table_.floorAt(p.x(), p.y());
     };
   }
@@ -88,7 +89,7 @@ void CostToGo::look() {
 }
 
 void CostToGo::judge(SearchState& state) {
-  const Eigen::Vector2d p = task_.goal_from_map * Eigen::Vector2d(state.x, state.y);
+  const Eigen::Vector2d p = task_.inGoalFrame(state.x, state.y);
   const GoalTable::Value near =
       table_.at(p.x(), p.y(), state.theta - task_.request.goal.theta, state.v, state.omega);
   state.h = std::max(boundAt(state.x, state.y), near.bound);

@@ -10,9 +10,9 @@ namespace {
 constexpr double kFall = 0.75;  // of what the weight is above 1, with each better plan
 constexpr double kHurry = 1.5;
 constexpr double kHurriedWeight = 5.0;
-constexpr double kPromising = 0.935;  // a guess of so small a share of the plan's cost
-constexpr double kDisappointing = 0.945;
-constexpr std::size_t kPatience = 16;  // times the work until then
+constexpr double kPromising = 0.955;  // a guess of so small a share of the plan's cost
+constexpr std::size_t kPatience = 3;   // times the work until then
+constexpr std::size_t kLooks = 8;      // while the work doubles
 
 }  // namespace
 
@@ -41,13 +41,12 @@ void SearchEffort::planFound(bool first) {
 }
 
 bool SearchEffort::goesOn(double guess) {
-  const bool promising = guess < (most_expansions_ == 0 ? kPromising : kDisappointing);
   if (most_expansions_ == 0) {
     most_expansions_ =
         std::min(kPatience * expansions_, static_cast<std::size_t>(params_.promising_expansions));
   }
-  if (!promising || expansions_ >= most_expansions_) return false;
-  enough_expansions_ = std::min(most_expansions_, expansions_ + expansions_ / 4 + 1);
+  if (guess >= kPromising || expansions_ >= most_expansions_) return false;
+  enough_expansions_ = std::min(most_expansions_, expansions_ + expansions_ / kLooks + 1);
   return true;
 }
 

@@ -50,7 +50,8 @@ void SearchTask::reset(const PlanRequest& wanted, const sarn::TimedCostmapView& 
   request.goal.theta = sarn::wrapAngle(wanted.goal.theta);
   // The ancestor charges cells: there, finer ones would be another cost.
   costmap = params.charge_cells ? costs : fine_costmap_.of(costs, kLargestCell);
-  goal_from_map = sarn::inverse(request.goal);
+  goal_from_map_ =
+      (Eigen::Translation2d(request.goal.position()) * Eigen::Rotation2Dd(request.goal.theta)).inverse();
   start_actions = lattice.fromAny({wanted.start.v, wanted.start.omega});
   time.reset(params, lattice, wanted.start.t, costmap);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -32,7 +33,9 @@ class SearchTask {
   void reset(const PlanRequest& wanted, const sarn::TimedCostmapView& costs);
 
   [[nodiscard]] bool atGoalPosition(const SearchState& state) const {
-    return std::hypot(state.x - request.goal.x, state.y - request.goal.y) < params.xy_goal_tolerance;
+    const double dx = state.x - request.goal.x;
+    const double dy = state.y - request.goal.y;
+    return dx * dx + dy * dy < params.xy_goal_tolerance * params.xy_goal_tolerance;
   }
   [[nodiscard]] bool isGoal(const SearchState& state) const {
     return state.v == lattice.standingV() && state.omega == lattice.standingOmega() &&
@@ -42,6 +45,10 @@ class SearchTask {
   /// The start may have speeds off the lattice and has actions of its own.
   [[nodiscard]] const std::vector<MotionPrimitive>& actions(StateId id, const SearchState& state) const {
     return id == 0 ? start_actions : lattice.from(state.v, state.omega);
+  }
+  /// A place of the map in the goal's frame.
+  [[nodiscard]] Eigen::Vector2d inGoalFrame(double x, double y) const {
+    return goal_from_map_ * Eigen::Vector2d(x, y);
   }
   /// [s] of a state, on the request's clock.
   [[nodiscard]] double timeOf(const SearchState& state) const {
@@ -55,10 +62,10 @@ class SearchTask {
   PlanRequest request;             // headings in (-pi, pi]
   sarn::TimedCostmapView costmap;  // with one layer more, see TimeAxis; cells cut, see FineCostmap
   TimeAxis time;
-  sarn::Pose2D goal_from_map;
   std::vector<MotionPrimitive> start_actions;
 
  private:
+  Eigen::Isometry2d goal_from_map_ = Eigen::Isometry2d::Identity();
   FineCostmap fine_costmap_;
 };
 
