@@ -72,7 +72,7 @@ class Bench {
   double kidnapped(std::uint64_t seed, double patience) {
     SimulatedDrive drive(scenario_, tour_, seed, true);
     MonteCarloLocalizer localizer = start(drive, seed);
-    constexpr std::uint64_t kTimes = 80;
+    constexpr std::uint64_t kTimes = 16;
     const double kidnapped_at = 20.0 + 7.0 * static_cast<double>((seed - 1) % kTimes + 1);
     DriveSample sample = drive.next();
     for (; sample.time < kidnapped_at; sample = drive.next()) step(localizer, drive, sample);

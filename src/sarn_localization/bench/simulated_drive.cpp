@@ -127,8 +127,12 @@ PlanarScan SimulatedDrive::look() {
   view.step = static_cast<std::size_t>(image.width) * sizeof(std::uint16_t);
   view.encoding = "16UC1";
   const auto scan = converter_.convert(view, calibration(camera_.params()), world_.time());
-  return {static_cast<double>(scan.angle_min), static_cast<double>(scan.angle_increment),
-          static_cast<double>(scan.range_min), static_cast<double>(scan.range_max), scan.ranges};
+  return {static_cast<double>(scan.angle_min),
+          static_cast<double>(scan.angle_increment),
+          static_cast<double>(scan.range_min),
+          static_cast<double>(scan.range_max),
+          scan.ranges,
+          world_.time()};
 }
 
 }  // namespace sarn_localization

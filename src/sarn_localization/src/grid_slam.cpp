@@ -90,14 +90,14 @@ class GridView {
   const Grid& grid_;
 };
 
-/// Standard errors of a motion: x, y [m], theta [rad].
-Eigen::Vector3d motionSigma(const sarn::Pose2D& motion, const SlamParams& p) {
+/// Standard errors of a motion that took so many seconds: x, y [m], theta [rad].
+Eigen::Vector3d motionSigma(const sarn::Pose2D& motion, double seconds, const SlamParams& p) {
   constexpr double kLeastXy = 0.001;      // [m]
   constexpr double kLeastTheta = 0.0005;  // [rad]
   const double d = motion.position().norm();
   const double turn = std::abs(motion.theta);
   const double xy = kLeastXy + p.srr * d + p.srt * turn;
-  return {xy, xy, kLeastTheta + p.str * d + p.stt * turn};
+  return {xy, xy, kLeastTheta + p.str * d + p.stt * turn + p.gyro_drift * seconds};
 }
 
 /// Every few beams of a scan, with the biases taken off; returns how many are valid. MRPT's grid spreads n
@@ -170,9 +170,10 @@ struct GridSlam::Impl {
     auto observation = mrpt::obs::CObservation2DRangeScan::Create();
     if (fill(scan, base_from_sensor, params, *observation) < kFewest) return false;
     const std::vector<Eigen::Vector2d> ends = endsOf(*observation);
-    lookAtWalls(motion, ends, base_from_sensor);
+    const Eigen::Vector3d sigma = motionSigma(motion, std::max(0.0, scan.time - time_at_update), params);
+    lookAtWalls(motion.theta, sigma.z(), ends, base_from_sensor);
     if (odom_at_update) {
-      moveParticles(motion, ends);
+      moveParticles(motion, sigma, onePerCell(ends, params.delta));
       filter.normalizeWeights();
       if (filter.ESS() < params.resample_threshold) filter.performResampling(options);
     }
@@ -180,6 +181,7 @@ struct GridSlam::Impl {
     frame.insert(observation);
     filter.insertObservation(frame);
     odom_at_update = robot_in_odom;
+    time_at_update = scan.time;
     robot_in_map = pose(likeliest());
     return true;
   }
@@ -200,10 +202,10 @@ struct GridSlam::Impl {
     return {last.x, last.y, last.yaw};
   }
 
-  void lookAtWalls(const sarn::Pose2D& motion, const std::vector<Eigen::Vector2d>& ends,
+  void lookAtWalls(double turn, double turn_sigma, const std::vector<Eigen::Vector2d>& ends,
                    const sarn::Pose2D& base_from_sensor) {
     if (!params.right_angles) return;
-    if (odom_at_update) compass.turn(motion.theta, motionSigma(motion, params).z());
+    if (odom_at_update) compass.turn(turn, turn_sigma);
     WallLineParams lines;
     lines.sigma = params.wall_sigma;
     lines.sigma_range = params.wall_sigma_range;
@@ -223,8 +225,8 @@ struct GridSlam::Impl {
 
   /// Draws each particle's next pose from where odometry, scan and its own map agree, and weighs it by how
   /// well they do.
-  void moveParticles(const sarn::Pose2D& motion, const std::vector<Eigen::Vector2d>& ends) {
-    Eigen::Vector3d sigma = motionSigma(motion, params);
+  void moveParticles(const sarn::Pose2D& motion, Eigen::Vector3d sigma,
+                     const std::vector<Eigen::Vector2d>& ends) {
     const double turn_sigma = sigma.z();
     const ScanMatchParams matching{params.match_reach, 0.5 * params.match_reach, params.sigma, 2.0,
                                    params.match_exponent};
@@ -251,6 +253,7 @@ struct GridSlam::Impl {
   mrpt::bayes::CParticleFilter::TParticleFilterOptions options;
   mrpt::maps::CMultiMetricMapPDF filter;
   std::optional<sarn::Pose2D> odom_at_update;  // robot in odom
+  double time_at_update = 0.0;                 // [s]
   sarn::Pose2D robot_in_map;                   // at the same time
   RightAngles compass;
 };

@@ -101,6 +101,35 @@ TEST(GridSlam, wallsHoldTheHeadingInTheFirstTurn) {
   EXPECT_GT(headingErrorAfterATurn(false), 0.04);
 }
 
+/// Error of the heading [rad] after a robot turned, stood while its gyro drifted by 0.08 rad, and turned on.
+double headingErrorAfterAStop(double gyro_drift) {
+  const WallDistance walls(unevenRoom());
+  sarn::Pose2D truth{4.0, 2.5, 0.0};
+  sarn::Pose2D odometry;
+  SlamParams turning = params();
+  turning.match_exponent = 0.001;
+  turning.gyro_drift = gyro_drift;
+  turning.initial_pose_x = truth.x;
+  turning.initial_pose_y = truth.y;
+  GridSlam slam(turning);
+  double time = 100.0;
+  for (int i = 0; i < 30; ++i) {
+    PlanarScan scan = idealScan(walls, truth, 1.0, 160);
+    scan.time = time;
+    slam.addScan(odometry, {}, scan);
+    truth.theta += 0.16;
+    odometry.theta += 0.16 + (i == 20 ? 0.08 : 0.0);
+    time += i == 20 ? 160.0 : 0.3;
+  }
+  const sarn::Pose2D found = *slam.mapFromOdom() * odometry;
+  return std::abs(sarn::angleDifference(truth.theta, found.theta));
+}
+
+TEST(GridSlam, wallsHoldTheHeadingOfARobotThatStoodForLong) {
+  EXPECT_LT(headingErrorAfterAStop(SlamParams{}.gyro_drift), 0.02);
+  EXPECT_GT(headingErrorAfterAStop(0.0), 0.05) << "the drift is a test at all";
+}
+
 TEST(GridSlam, leavesOutScansOfNothing) {
   GridSlam slam(params());
   PlanarScan scan{-0.5, 0.01, 0.1, 8.0, std::vector<float>(100, std::numeric_limits<float>::quiet_NaN())};

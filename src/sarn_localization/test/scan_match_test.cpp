@@ -117,5 +117,29 @@ TEST(ScanMatch, isLikelierOnTheRightPlace) {
   EXPECT_GT(right, matchScan(map, ends, {3.2, 2.0, 0.7}, {0.01, 0.01, 0.01}, {}).log_likelihood + 50.0);
 }
 
+TEST(OnePerCell, takesTheMeansOfNeighbours) {
+  const auto means =
+      onePerCell({{1.0, 0.0}, {1.0, 0.02}, {1.0, 0.04}, {1.0, 0.06}, {3.0, 0.0}, {1.0, 0.06}}, 0.05);
+  ASSERT_EQ(means.size(), 4U);
+  EXPECT_NEAR(means[0].y(), 0.02, 1e-12);
+  EXPECT_NEAR(means[1].y(), 0.06, 1e-12);
+  EXPECT_NEAR(means[2].x(), 3.0, 1e-12);
+  EXPECT_NEAR(means[3].x(), 1.0, 1e-12) << "neighbours only";
+  EXPECT_TRUE(onePerCell({}, 0.05).empty());
+}
+
+/// Four times the beams meet the same cells: they are hardly surer of the pose.
+TEST(OnePerCell, beamsThatMeetTheSameCellsCountOnce) {
+  const WallDistance walls(unevenRoom());
+  const MapView map(surfaces(unevenRoom()));
+  const sarn::Pose2D truth{4.0, 2.4, 0.7};
+  const auto sigmaOf = [&](std::size_t beams, double cell) {
+    const auto ends = onePerCell(endsOf(idealScan(walls, truth, 1.0, beams)), cell);
+    return std::sqrt(matchScan(map, ends, truth, kWide, {}).covariance(2, 2));
+  };
+  EXPECT_NEAR(sigmaOf(4000, 0.05), sigmaOf(1000, 0.05), 0.1 * sigmaOf(1000, 0.05));
+  EXPECT_LT(sigmaOf(4000, 1e-4), 0.6 * sigmaOf(1000, 1e-4)) << "the beams are a test at all";
+}
+
 }  // namespace
 }  // namespace sarn_localization

@@ -16,6 +16,7 @@ struct PlanarScan {
   double range_min = 0.0;        // [m] shorter returns are not valid
   double range_max = 0.0;        // [m] longer returns are not valid
   std::vector<float> ranges;     // [m]
+  double time = 0.0;             // [s] when it was taken, by any clock
 };
 
 /// A return.

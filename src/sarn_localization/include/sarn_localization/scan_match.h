@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -79,6 +80,22 @@ template <class Grid>
   const double mean = 0.5 * covariance.trace();
   const double least = mean - std::sqrt(std::max(0.0, mean * mean - covariance.determinant()));
   return covariance * covariance / least;  // eigenvalues a >= b become a a / b and b
+}
+
+/// Means of neighbouring ends [m] of beams, in their order, that lie within a cell [m] of each other. They
+/// meet the same cells of the grid, err with them together and count as one: taken for independent, they
+/// outweigh an odometry that errs less, and what the scans err by adds up.
+[[nodiscard]] inline std::vector<Eigen::Vector2d> onePerCell(const std::vector<Eigen::Vector2d>& ends,
+                                                             double cell) {
+  std::vector<Eigen::Vector2d> means;
+  for (std::size_t first = 0; first < ends.size();) {
+    Eigen::Vector2d sum = ends[first];
+    std::size_t next = first + 1;
+    for (; next < ends.size() && (ends[next] - ends[first]).norm() < cell; ++next) sum += ends[next];
+    means.emplace_back(sum / static_cast<double>(next - first));
+    first = next;
+  }
+  return means;
 }
 
 /// Fits beams' ends [m] in base to a grid, from `predicted`, whose standard errors are `prior_sigma` (x, y

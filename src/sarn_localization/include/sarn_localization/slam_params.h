@@ -24,30 +24,30 @@ struct SlamParams : SharedParams {
   double linear_update = 0.2;       // [m] of motion before a scan is used
   double angular_update = 0.15;     // [rad]
 
-  // Motion: standard deviations per motion
-  double srr = 0.01;   // [m/m] of translation, from translation
-  double srt = 0.005;  // [m/rad] of translation, from rotation
-  double str = 0.001;  // [rad/m] of rotation, from translation
-  double stt = 0.003;  // [rad/rad] of rotation, from rotation
+  // Motion: standard deviations per motion, independent from update to update
+  double srr = 0.004;          // [m/m] of translation, from translation
+  double srt = 0.002;          // [m/rad] of translation, from rotation
+  double str = 0.001;          // [rad/m] of rotation, from translation
+  double stt = 0.003;          // [rad/rad] of rotation, from rotation
+  double gyro_drift = 0.0005;  // [rad/s] of rotation, from time: while it stands, too
 
   // Scan and map
-  double max_urange = 6.0;      // [m] farther returns are not used
-  double min_range = 0.45;      // [m]
-  int lskip = 1;                // beams left out between two that are used
-  double sigma = 0.05;          // [m] of a return around its wall
-  double match_reach = 0.16;    // [m] walls up to about twice as far off still pull a scan
-  double match_exponent = 1.0;  // [1] neighbouring beams err together: (product of beams)^exponent, of poses
-  double likelihood_exponent =
-      0.03;                   // [1] neighbouring beams err together: (product of beams)^exponent, of weights
-  bool right_angles = true;   // most walls meet at right angles: they tell the heading
-  double wall_sigma = 0.006;  // [m] of a return about a straight wall, at any range
-  double wall_sigma_range = 0.0015;  // [1/m] and along its beam by this times r^2, at a range r
-  double xmin = -5.0;                // [m] of the map at first; it grows
-  double ymin = -5.0;                // [m]
-  double xmax = 5.0;                 // [m]
-  double ymax = 5.0;                 // [m]
-  double delta = 0.05;               // [m] edge of a map cell
-  double occ_thresh = 0.5;           // [1] probability from which a cell is published as occupied
+  double max_urange = 6.0;            // [m] farther returns are not used
+  double min_range = 0.45;            // [m]
+  int lskip = 1;                      // beams left out between two that are used
+  double sigma = 0.05;                // [m] of a return around its wall
+  double match_reach = 0.16;          // [m] walls up to about twice as far off still pull a scan
+  double match_exponent = 0.3;        // [1] of poses: (product over cells that beams end in)^exponent
+  double likelihood_exponent = 0.15;  // [1] of weights, the same
+  bool right_angles = true;           // most walls meet at right angles: they tell the heading
+  double wall_sigma = 0.006;          // [m] of a return about a straight wall, at any range
+  double wall_sigma_range = 0.0015;   // [1/m] and along its beam by this times r^2, at a range r
+  double xmin = -5.0;                 // [m] of the map at first; it grows
+  double ymin = -5.0;                 // [m]
+  double xmax = 5.0;                  // [m]
+  double ymax = 5.0;                  // [m]
+  double delta = 0.05;                // [m] edge of a map cell
+  double occ_thresh = 0.5;            // [1] probability from which a cell is published as occupied
 
   template <class Self, class Visitor>
   static void visit(Self& p, Visitor& v) {
@@ -65,6 +65,7 @@ struct SlamParams : SharedParams {
     v("srt", p.srt, {0.0, 1.0});
     v("str", p.str, {0.0, 1.0});
     v("stt", p.stt, {0.0, 1.0});
+    v("gyro_drift", p.gyro_drift, {0.0, 1.0});
     v("maxUrange", p.max_urange, {0.1, 200.0});
     v("minRange", p.min_range, {0.0, 100.0});
     v("lskip", p.lskip, {0.0, 1000.0});

@@ -28,8 +28,12 @@ std::string scanProblem(const sensor_msgs::LaserScan& message) {
 }
 
 PlanarScan fromMessage(const sensor_msgs::LaserScan& message) {
-  return {static_cast<double>(message.angle_min), static_cast<double>(message.angle_increment),
-          static_cast<double>(message.range_min), static_cast<double>(message.range_max), message.ranges};
+  return {static_cast<double>(message.angle_min),
+          static_cast<double>(message.angle_increment),
+          static_cast<double>(message.range_min),
+          static_cast<double>(message.range_max),
+          message.ranges,
+          message.header.stamp.toSec()};
 }
 
 std::optional<PoseEstimate> fromMessage(const geometry_msgs::PoseWithCovariance& message) {
