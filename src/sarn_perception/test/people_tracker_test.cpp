@@ -146,6 +146,16 @@ TEST_F(PeopleTrackerTest, takesNobodyForStandingAtFirstSight) {
   EXPECT_FALSE(tracker_.tracks().front().standing);
 }
 
+/// Who turns or waits for a moment does not stay; out of view they were ghosts for many seconds.
+TEST_F(PeopleTrackerTest, takesNobodyForStandingWhoMovesSlowly) {
+  walk({2.0, 0.0}, 0.24, 1.0);
+  for (double way = 0.24; way < 1.0; way += 0.24 * 0.1) {
+    walk({2.0 + way, 0.0}, 0.24, 0.1);
+    ASSERT_EQ(tracker_.tracks().size(), 1U);
+    EXPECT_FALSE(tracker_.tracks().front().standing) << way;
+  }
+}
+
 TEST_F(PeopleTrackerTest, walksOnBehindAnother) {
   walk({2.0, 0.0}, 0.8, 1.0);
   lookAway(0.8, ahead(1.0F));  // somebody stands before the camera
