@@ -27,10 +27,11 @@ using lattice_planner::PlanStatus;
 constexpr const char* kUsage =
     "usage: lattice_planner_bench MAP.yaml [--pairs FILE.csv] [--people FILE.csv] [--params FILE.yaml]\n"
     "         [--time-limit SECONDS] [--count N] [--seed N] [--name NAME] [--layers N]\n"
-    "         [--optimum N] [--ancestor N] [--verbose]\n"
+    "         [--optimum N] [--ancestor N] [--replan N] [--verbose]\n"
     "--optimum: compare the first N tasks with a textbook A* on the ancestor's lattice (seconds a task),\n"
     "--ancestor: with the published implementation's search (tenths of a second a task); both only for\n"
     "config/ancestor.yaml.\n"
+    "--replan: drive the first N tasks, planning again every half second.\n"
     "Without --pairs: N seeded tasks of 2 to 8 m on the map's largest free area.\n";
 
 struct Options {
@@ -44,6 +45,7 @@ struct Options {
   int layers = 20;   // of 0.5 s; the ancestor has 15
   int optimum = 0;   // tasks to compare with the textbook
   int ancestor = 0;  // tasks to compare with the ancestor's search
+  int replan = 0;    // tasks to drive
   unsigned seed = 7;
   bool verbose = false;
 };
@@ -74,6 +76,8 @@ Options parse(int argc, char** argv) {
       options.optimum = std::stoi(argv[++i]);
     } else if (key == "--ancestor") {
       options.ancestor = std::stoi(argv[++i]);
+    } else if (key == "--replan") {
+      options.replan = std::stoi(argv[++i]);
     } else if (key == "--seed") {
       options.seed = static_cast<unsigned>(std::stoul(argv[++i]));
     } else {
@@ -120,6 +124,7 @@ struct Measured {
   std::vector<double> search_ms, cpu_ms, cost, duration, length, person, expansions, bound;
   std::vector<double> over_optimum, over_ancestor, ancestor_over_optimum;  // [%]
   std::vector<double> ancestor_cost, ancestor_expansions;
+  std::vector<double> replan_ms, replan_anew_ms;
   int reached = 0;
   int timed_out = 0;
 };
@@ -156,6 +161,10 @@ void printSummary(const std::string& name, const Measured& m, std::size_t tasks)
   print("length_m_median", quantile(m.length, 0.5));
   print("person_m_median", quantile(m.person, 0.5));
   print("person_m_min", quantile(m.person, 0.0));
+  print("replan_ms_median", quantile(m.replan_ms, 0.5));
+  print("replan_ms_p99", quantile(m.replan_ms, 0.99));
+  print("replan_anew_ms_median", quantile(m.replan_anew_ms, 0.5));
+  print("replan_anew_ms_p99", quantile(m.replan_anew_ms, 0.99));
   std::printf("}\n");
 }
 
@@ -197,11 +206,45 @@ void compare(const Options& options, int task, const lattice_planner::PlanReques
   std::printf("\"over_ancestor_pct\": %.3f}\n", measured.over_ancestor.back());
 }
 
+constexpr double kRelease = 0.48;  // [s] when the robot starts
+
+/// Drives one task along its plans, made anew every half second among people who have walked on: CPU time
+/// [ms] of a planner that keeps what it knows of the goal, and of the same that has to forget it each time.
+void drive(const Options& options, lattice_planner::LatticePlanner& planner,
+           const sarn::Grid<std::uint8_t>& static_costs, const lattice_planner::bench::Task& task,
+           std::vector<double>& reusing, std::vector<double>& anew) {
+  constexpr double kEvery = 0.5;  // [s]
+  constexpr int kMost = 80;       // plans
+  lattice_planner::bench::SocialLayers social(static_costs.geometry, options.layers, 0.5);
+  lattice_planner::PlanRequest request{
+      {task.start.x, task.start.y, task.start.theta, 0.0, 0.0, kRelease}, task.goal, options.time_limit};
+  lattice_planner::PlanRequest elsewhere = request;  // forgets the goal: the robot is there already
+  elsewhere.goal = task.start;
+  std::vector<lattice_planner::bench::Walker> walkers = task.walkers;
+  const auto timed = [&](const sarn::TimedCostmapView& view, std::vector<double>& times) {
+    const double begin = cpuTime();
+    PlanResult result = planner.plan(request, view);
+    times.push_back((cpuTime() - begin) * 1e3);
+    return result;
+  };
+  for (int i = 0; i < kMost; ++i) {
+    social.mark(walkers);
+    const sarn::TimedCostmapView view = social.view(static_costs);
+    (void)planner.plan(elsewhere, view);
+    std::vector<double> first;
+    (void)timed(view, i == 0 ? first : anew);
+    const PlanResult again = timed(view, i == 0 ? first : reusing);
+    if (again.status != PlanStatus::kComplete || again.trajectory.endTime() < kRelease + 2.0 * kEvery) return;
+    request.start = again.trajectory.sample(kRelease + kEvery);
+    request.start.t = kRelease;
+    for (auto& walker : walkers) walker.position = walker.at(kEvery);
+  }
+}
+
 void measure(const Options& options, lattice_planner::LatticePlanner& planner,
              const sarn::Grid<std::uint8_t>& static_costs,
              const std::vector<lattice_planner::bench::Task>& tasks, bool people) {
   constexpr double kLayerDuration = 0.5;  // [s]
-  constexpr double kRelease = 0.48;       // [s] when the robot starts
   lattice_planner::bench::SocialLayers social(static_costs.geometry, options.layers, kLayerDuration);
   Rivals rivals(planner.params());
   Measured measured;
@@ -229,6 +272,9 @@ void measure(const Options& options, lattice_planner::LatticePlanner& planner,
     if (people && !tasks[i].walkers.empty()) {
       measured.person.push_back(closestWalker(r.trajectory, tasks[i], 7.5));
     }
+  }
+  for (std::size_t i = 0; people && i < tasks.size() && static_cast<int>(i) < options.replan; ++i) {
+    drive(options, planner, static_costs, tasks[i], measured.replan_ms, measured.replan_anew_ms);
   }
   printSummary(options.name + (people ? ".people" : ".alone"), measured, tasks.size());
 }

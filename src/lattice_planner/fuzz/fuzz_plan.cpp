@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a map, people and a request: the planner must answer with one outcome, and every trajectory
-// must be finite, begin at the start and end standing.
+// must be one that the robot can drive, through free cells, from the start to a stand; a complete one ends at
+// the goal.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
 
 #include "lattice_planner/lattice_planner.h"
+#include "sarn_common/angles.h"
+#include "sarn_common/cost_values.h"
 
 namespace {
 
@@ -35,37 +41,119 @@ class Bytes {
   std::size_t at_ = 0;
 };
 
-void check(bool holds) {
-  if (!holds) std::abort();
+void check(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "a plan is wrong: %s\n", what);
+  std::abort();
 }
 
-void checkResult(const lattice_planner::PlanResult& result, const lattice_planner::PlanRequest& request) {
-  check(lattice_planner::toString(result.status) != nullptr);
+constexpr double kRounding = 1e-6;
+
+/// From one point to the next in one time step, within the limits; a start that is too fast may only slow
+/// down.
+void checkAction(const sarn::TrajectoryPoint& from, const sarn::TrajectoryPoint& to,
+                 const lattice_planner::PlannerParams& params, bool from_start) {
+  check(std::isfinite(to.x) && std::isfinite(to.y) && std::isfinite(to.theta), "not finite");
+  check(std::abs(to.t - from.t - params.time_step) < kRounding * (1.0 + std::abs(to.t)), "time");
+  check(to.v <= params.max_vel_x + kRounding && to.v >= params.min_vel_x - kRounding, "speed");
+  check(std::abs(to.omega) <= params.max_vel_theta + kRounding, "angular speed");
+  const bool too_fast = from_start && (from.v > params.max_vel_x + params.acc_lim_x * params.time_step ||
+                                       from.v < params.min_vel_x - params.acc_lim_x * params.time_step);
+  const bool turns_too_fast =
+      from_start && std::abs(from.omega) > params.max_vel_theta + params.acc_lim_theta * params.time_step;
+  check(too_fast || std::abs(to.v - from.v) <= params.acc_lim_x * params.time_step + kRounding,
+        "acceleration");
+  check(turns_too_fast ||
+            std::abs(to.omega - from.omega) <= params.acc_lim_theta * params.time_step + kRounding,
+        "angular acceleration");
+  const sarn::Pose2D end =
+      sarn::advance(from.pose(), {0.5 * (from.v + to.v), 0.5 * (from.omega + to.omega)}, params.time_step);
+  const double far = kRounding * (1.0 + std::abs(from.x) + std::abs(from.y) + std::abs(from.v));
+  check(std::abs(from.omega) > 1e6 || std::hypot(end.x - to.x, end.y - to.y) < far, "jump");
+}
+
+/// No point of the plan is on a cell that is lethal in the static layer, or unknown where that is forbidden,
+/// unless the robot started inside a forbidden place and leaves it.
+void checkCells(const sarn::TimedTrajectory& plan, const sarn::TimedCostmapView& view,
+                const lattice_planner::PlannerParams& params) {
+  const auto forbidden = [&](const sarn::TrajectoryPoint& p) {
+    const auto cell = view.geometry.cellAt(p.x, p.y);
+    if (!cell) return true;
+    const int cost = view.static_costs[view.geometry.index(*cell)];
+    return cost == sarn::kNoInformation ? !params.allow_unknown : cost >= params.forbidden_cost;
+  };
+  if (forbidden(plan.points.front())) return;
+  for (const sarn::TrajectoryPoint& p : plan.points) check(!forbidden(p), "forbidden cell");
+}
+
+void checkResult(const lattice_planner::PlanResult& result, const lattice_planner::PlanRequest& request,
+                 const sarn::TimedCostmapView& view, const lattice_planner::PlannerParams& params) {
+  check(lattice_planner::toString(result.status) != nullptr, "status without a name");
   const auto& points = result.trajectory.points;
-  if (lattice_planner::isDrivable(result.status)) check(!points.empty());
+  if (lattice_planner::isDrivable(result.status)) check(!points.empty(), "nothing to drive");
   if (points.empty()) return;
-  check(points.front().x == request.start.x && points.front().y == request.start.y);
-  check(points.back().v == 0.0 && points.back().omega == 0.0);
-  for (const sarn::TrajectoryPoint& p : points) {
-    check(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.theta) && std::isfinite(p.t));
-  }
+  check(points.front().x == request.start.x && points.front().y == request.start.y, "other start");
+  check(points.back().v == 0.0 && points.back().omega == 0.0, "ends moving");
+  for (std::size_t i = 1; i < points.size(); ++i) checkAction(points[i - 1], points[i], params, i == 1);
+  if (!lattice_planner::isDrivable(result.status)) return;  // braking at once is the least harm
+  checkCells(result.trajectory, view, params);
+  if (result.status != lattice_planner::PlanStatus::kComplete) return;
+  const sarn::TrajectoryPoint& end = points.back();
+  check(std::hypot(end.x - request.goal.x, end.y - request.goal.y) < params.xy_goal_tolerance + kRounding,
+        "not at the goal");
+  check(std::abs(sarn::angleDifference(sarn::wrapAngle(end.theta), sarn::wrapAngle(request.goal.theta))) <
+            params.yaw_goal_tolerance + kRounding,
+        "other heading than the goal");
+  check(result.bound >= 1.0 && std::isfinite(result.cost) && result.cost >= 0.0, "cost or bound");
 }
 
-lattice_planner::LatticePlanner makePlanner(const char* footprint, bool allow_unknown) {
+lattice_planner::PlannerParams small() {
   lattice_planner::PlannerParams params;
   params.table_radius = 0.4;
   params.max_expansions = 2000;
-  params.footprint = footprint;
-  params.allow_unknown = allow_unknown;
+  return params;
+}
+
+lattice_planner::LatticePlanner longRobot() {
+  lattice_planner::PlannerParams params = small();
+  params.footprint = "[[0.3, 0.12], [-0.2, 0.12], [-0.2, -0.12], [0.3, -0.12]]";
+  params.allow_unknown = true;
   return lattice_planner::LatticePlanner(params);
 }
 
-/// One round robot and one that is not, for all inputs: nothing may be left over from the last one.
-lattice_planner::LatticePlanner& planner(bool round) {
-  static lattice_planner::LatticePlanner disc = makePlanner("", false);
-  static lattice_planner::LatticePlanner box =
-      makePlanner("[[0.3, 0.12], [-0.2, 0.12], [-0.2, -0.12], [0.3, -0.12]]", true);
-  return round ? disc : box;
+/// Charges as the ancestor does and improves in columns.
+lattice_planner::LatticePlanner likeTheAncestor() {
+  lattice_planner::PlannerParams params = small();
+  params.charge_cells = params.combine_with_max = true;
+  params.forget_moving_people = false;
+  params.promising_expansions = 2000;
+  params.least_improvement = 50;
+  return lattice_planner::LatticePlanner(params);
+}
+
+lattice_planner::LatticePlanner reversing() {
+  lattice_planner::PlannerParams params = small();
+  params.min_vel_x = -0.25;
+  return lattice_planner::LatticePlanner(params);
+}
+
+/// For all inputs: nothing may be left over from the last one.
+lattice_planner::LatticePlanner& planner(std::uint8_t which) {
+  static std::array<lattice_planner::LatticePlanner, 4> all = {lattice_planner::LatticePlanner(small()),
+                                                               longRobot(), likeTheAncestor(), reversing()};
+  return all[which % all.size()];
+}
+
+/// A person's disc and the cost around it.
+void paintPerson(std::vector<std::uint8_t>& layer, const sarn::GridGeometry& g, double x, double y) {
+  for (int row = 0; row < g.height; ++row) {
+    for (int column = 0; column < g.width; ++column) {
+      const double distance = (g.center({column, row}) - Eigen::Vector2d(x, y)).norm();
+      if (!(distance < 0.6)) continue;
+      std::uint8_t& cell = layer[g.index({column, row})];
+      cell = std::max<std::uint8_t>(cell, distance < 0.3 ? sarn::kLethalObstacle : 100);
+    }
+  }
 }
 
 }  // namespace
@@ -86,6 +174,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   std::vector<std::vector<std::uint8_t>> layers(1 + bytes.byte() % 6);
   for (auto& layer : layers) paint(layer);
+  for (int person = bytes.byte() % 4; person > 0; --person) {  // walks through the layers
+    const double px = bytes.number(-2.0, 8.0), py = bytes.number(-2.0, 8.0);
+    const double vx = bytes.number(-1.0, 1.0), vy = bytes.number(-1.0, 1.0);
+    for (std::size_t i = 1; i < layers.size(); ++i) {
+      const double t = 0.5 * static_cast<double>(i);
+      paintPerson(layers[i], view.geometry, px + t * vx, py + t * vy);
+    }
+  }
   view.static_costs = bytes.byte() == 255 ? nullptr : layers.front().data();
   for (std::size_t i = 1; i < layers.size(); ++i) view.layers.push_back(layers[i].data());
   view.first_layer_time = bytes.number(-5.0, 5.0);
@@ -102,6 +198,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                    bytes.number(-5.0, 5.0)};
   request.goal = {x(), y(), bytes.number(-7.0, 7.0)};
   request.time_limit = 60.0;
-  checkResult(planner(bytes.byte() % 2 == 0).plan(request, view), request);
+  lattice_planner::LatticePlanner& asked = planner(bytes.byte());
+  checkResult(asked.plan(request, view), request, view, asked.params());
   return 0;
 }

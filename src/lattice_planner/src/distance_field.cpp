@@ -214,7 +214,8 @@ float DistanceField::keyOf(float label, const sarn::CellIndex& cell) const {
 void DistanceField::push(float label, const sarn::CellIndex& cell) {
   const auto number = static_cast<std::int64_t>(keyOf(label, cell) * buckets_per_cost_);
   const auto offset = std::clamp<std::int64_t>(number - first_number_, 0, kBuckets - 1);
-  buckets_[(first_bucket_ + static_cast<std::size_t>(offset)) % kBuckets].push_back({label, cell, static_cast<std::int32_t>(number)});
+  buckets_[(first_bucket_ + static_cast<std::size_t>(offset)) % kBuckets].push_back(
+      {label, cell, static_cast<std::int32_t>(number)});
   first_row_ = std::min(first_row_, cell.y);
   last_row_ = std::max(last_row_, cell.y);
   ++pending_;

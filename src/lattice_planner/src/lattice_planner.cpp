@@ -28,4 +28,6 @@ PlanResult LatticePlanner::plan(const PlanRequest& request, const sarn::TimedCos
   return search_->plan(request, costmap);
 }
 
+std::size_t LatticePlanner::memory() const { return search_->memory(); }
+
 }  // namespace lattice_planner

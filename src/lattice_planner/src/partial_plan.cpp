@@ -9,6 +9,11 @@
 namespace lattice_planner {
 
 void PartialPlan::reset() {
+  standing_ = kNoState;
+  forgetProgress();
+}
+
+void PartialPlan::forgetProgress() {
   progress_.clear();
   any_pose_ = kNoState;
   closest_ = std::numeric_limits<float>::infinity();
@@ -23,6 +28,7 @@ void PartialPlan::note(StateId id) {
   if (task_.atGoalPosition(state) && (any_pose_ == kNoState || state.f() < pool_[any_pose_].f())) {
     any_pose_ = id;
   }
+  if (stands(id) && (standing_ == kNoState || state.h < pool_[standing_].h)) standing_ = id;
 }
 
 std::vector<StateId> PartialPlan::candidates() const {
@@ -35,7 +41,7 @@ std::vector<StateId> PartialPlan::candidates() const {
 
 PartialPlan::Ending PartialPlan::best(bool timed_out) {
   if (!staticallyConnected()) {  // coming closer as the crow flies would be of no use
-    reset();
+    forgetProgress();
     timed_out = false;
   }
   const std::vector<StateId> from_these = candidates();
@@ -51,7 +57,9 @@ PartialPlan::Ending PartialPlan::best(bool timed_out) {
     }
     if (end) break;
   }
-  if (!end) end = safeStop(0, false);  // braking at once is the least harm
+  // Where braking is not enough, by steering as well.
+  if (!end && standing_ != kNoState) end = standing_;
+  if (!end) return {*safeStop(0, false), PlanStatus::kNoPath, timed_out};  // braking is the least harm
   const bool closer = from != 0 && pool_[from].h < pool_[0].h;
   if (closer && from == any_pose_) return {*end, PlanStatus::kGoalAnyPose, timed_out};
   return {*end, closer || timed_out ? PlanStatus::kPartial : PlanStatus::kNoPath, timed_out};

@@ -31,6 +31,7 @@ class PartialPlan {
   [[nodiscard]] Ending best(bool timed_out);
 
  private:
+  void forgetProgress();
   [[nodiscard]] std::vector<StateId> candidates() const;
   [[nodiscard]] bool staticallyConnected() const;
   [[nodiscard]] std::optional<StateId> safeStop(StateId from, bool check_collisions);
@@ -42,6 +43,7 @@ class PartialPlan {
   MotionCheck& motions_;
   StatePool& pool_;
   StateId any_pose_ = kNoState;    // cheapest at the goal's place
+  StateId standing_ = kNoState;    // closest to the goal of those that stand
   std::vector<StateId> progress_;  // expanded states, each closer to the goal than the one before
   float closest_ = 0.0F;
 };

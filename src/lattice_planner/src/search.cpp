@@ -10,6 +10,7 @@
 namespace lattice_planner {
 namespace {
 
+constexpr std::size_t kOverMemory = 1000;  // states: those of the last expansion, and of braking
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -50,7 +51,7 @@ PlanResult Search::plan(const PlanRequest& request, const sarn::TimedCostmapView
 void Search::prepare(const PlanRequest& request, const sarn::TimedCostmapView& costmap,
                      SearchEffort::Clock::time_point deadline) {
   effort_.begin(deadline, request.stop);
-  pool_.reset();
+  pool_.reset(static_cast<std::size_t>(task_.params.max_states) + kOverMemory);
   open_.clear();
   columns_.clear();
   in_columns_ = false;

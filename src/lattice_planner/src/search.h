@@ -27,6 +27,7 @@ class Search {
  public:
   explicit Search(const PlannerParams& params);
   [[nodiscard]] PlanResult plan(const PlanRequest& request, const sarn::TimedCostmapView& costmap);
+  [[nodiscard]] std::size_t memory() const { return pool_.memory(); }  // [bytes] of its states
 
  private:
   enum class Outcome { kProved, kExhausted, kGoodEnough, kOutOfTime };

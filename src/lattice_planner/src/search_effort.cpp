@@ -11,8 +11,8 @@ constexpr double kFall = 0.75;  // of what the weight is above 1, with each bett
 constexpr double kHurry = 1.5;
 constexpr double kHurriedWeight = 5.0;
 constexpr double kPromising = 0.955;  // a guess of so small a share of the plan's cost
-constexpr std::size_t kPatience = 3;   // times the work until then
-constexpr std::size_t kLooks = 8;      // while the work doubles
+constexpr std::size_t kPatience = 3;  // times the work until then
+constexpr std::size_t kLooks = 8;     // while the work doubles
 
 }  // namespace
 

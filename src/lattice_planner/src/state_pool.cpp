@@ -6,7 +6,8 @@
 
 namespace lattice_planner {
 
-void StatePool::reset() {
+void StatePool::reset(std::size_t expected) {
+  expected_ = expected;
   states_.clear();
   used_ = 0;
   mask_ = kFirstSlots - 1;
@@ -25,7 +26,11 @@ StateId StatePool::find(std::uint64_t key) const {
   return slot.epoch == epoch_ ? slot.id : kNoState;
 }
 
+/// Doubles its memory when it is full, but for no more states than are expected.
 StateId StatePool::add(const SearchState& state) {
+  if (states_.size() == states_.capacity() && states_.size() < expected_) {
+    states_.reserve(std::min(std::max<std::size_t>(2 * states_.capacity(), 1024), expected_));
+  }
   states_.push_back(state);
   return static_cast<StateId>(states_.size() - 1);
 }

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <vector>
 
@@ -18,6 +21,19 @@ TEST(Fuzz, anyBytesGetOneOutcome) {
     for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
     EXPECT_EQ(LLVMFuzzerTestOneInput(bytes.data(), bytes.size()), 0);
   }
+}
+
+// Inputs that once found a fault: a robot that could steer clear of the map's edge was made to brake over it.
+TEST(Fuzz, whatOnceFoundAFaultDoesNotAnyMore) {
+  int played = 0;
+  for (const auto& file : std::filesystem::directory_iterator("fuzz/corpus")) {
+    std::ifstream in(file.path(), std::ios::binary);
+    const std::vector<char> text{std::istreambuf_iterator<char>(in), {}};
+    const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+    EXPECT_EQ(LLVMFuzzerTestOneInput(bytes.data(), bytes.size()), 0) << file.path();
+    ++played;
+  }
+  EXPECT_GT(played, 0);
 }
 
 }  // namespace

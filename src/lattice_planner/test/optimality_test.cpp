@@ -32,6 +32,14 @@ PlannerParams coarse() {
   return params;
 }
 
+/// 3 x 5 speeds: {0, 0.2, 0.4} x {-0.8, -0.4, 0, 0.4, 0.8}.
+PlannerParams threeByFive() {
+  PlannerParams params = coarse();
+  params.acc_lim_x = 0.4;
+  params.acc_lim_theta = 0.8;
+  return params;
+}
+
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
@@ -155,6 +163,63 @@ TEST(LatticePlanner, findsTheOptimumOfBruteForceAmongPeople) {
     EXPECT_NEAR(result.cost, optimum, 0.01 * optimum) << speed;
     EXPECT_TRUE(faults(result.trajectory, task, params, world).empty());
   }
+}
+
+TEST(LatticePlanner, findsTheOptimumOfBruteForceWithThreeByFiveSpeedsFromAnyOfThem) {
+  const PlannerParams params = threeByFive();
+  LatticePlanner planner(params);
+  Random random(17);
+  const std::array<sarn::Twist2D, 4> starts = {{{0.0, 0.0}, {0.4, 0.0}, {0.2, -0.8}, {0.4, 0.4}}};
+  for (const sarn::Twist2D& start : starts) {
+    World world = World::room(1.3, 0.8);
+    world.paintStatic(0.7, random.uniform(0.0, 0.2), 0.2, sarn::kInscribedObstacle);
+    world.paintStatic(0.8, 0.6, 0.25, 100);
+    PlanRequest task = request({0.2, 0.4, 0.3}, {1.05, 0.45, random.uniform(-0.5, 0.5)});
+    task.start.v = start.v;
+    task.start.omega = start.omega;
+    const double optimum = Oracle(params, world, 0.02).solve(task).cost;
+    const PlanResult result = planner.plan(task, world.view());
+    ASSERT_EQ(result.status, PlanStatus::kComplete) << start.v << ", " << start.omega;
+    EXPECT_DOUBLE_EQ(result.bound, 1.0);
+    EXPECT_NEAR(result.cost, optimum, 0.01 * optimum) << start.v << ", " << start.omega;
+    EXPECT_TRUE(faults(result.trajectory, task, params, world).empty());
+  }
+}
+
+// More work never makes a plan dearer, nor its bound larger: neither by the weight that falls nor in columns.
+TEST(LatticePlanner, neverLosesByGoingOn) {
+  Random random(29);
+  int improved = 0;
+  for (int map = 0; map < 6; ++map) {
+    World world = randomWorld(random, 2.4, 3 + map);
+    if (map % 2 == 1) {
+      world.addLayers(10, 0.5);
+      world.walk(random.uniform(0.8, 1.6), 2.2, 0.0, -0.4, 0.15);
+    }
+    const PlanRequest task = request({0.25, 0.25, random.uniform(-3.0, 3.0)}, {2.1, 2.1, 0.5});
+    PlanResult last;
+    for (const int expansions : {200, 400, 800, 1600, 3200, 6400, 12800}) {
+      PlannerParams params = coarse();
+      params.merge_resolution = 0.05;
+      params.heading_bins = 32;
+      params.table_radius = 0.0;  // quickly built
+      params.max_expansions = expansions;
+      params.promising_expansions = map < 3 ? 0 : 100000;
+      params.improvement_effort = map < 3 ? 0.0 : 0.1;
+      params.least_improvement = 50;
+      LatticePlanner planner(params);
+      const PlanResult result = planner.plan(task, world.view());
+      if (last.status == PlanStatus::kComplete) {
+        ASSERT_EQ(result.status, PlanStatus::kComplete) << map << ", " << expansions;
+        EXPECT_LE(result.cost, last.cost) << map << ", " << expansions;
+        EXPECT_LE(result.bound, last.bound + 1e-12) << map << ", " << expansions;
+        if (result.cost < last.cost) ++improved;
+      }
+      last = result;
+    }
+    EXPECT_EQ(last.status, PlanStatus::kComplete) << map;
+  }
+  EXPECT_GT(improved, 3) << "or nothing was tested";
 }
 
 TEST(LatticePlanner, boundsWhatItLosesHonestly) {

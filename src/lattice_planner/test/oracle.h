@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <queue>
+#include <stdexcept>
 #include <unordered_map>
 #include <vector>
 
@@ -40,7 +41,11 @@ class Oracle {
     std::unordered_map<Key, double> best;
     using Entry = std::pair<double, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    nodes.push_back({{request.start.pose(), lattice_.standingV(), lattice_.standingOmega(), 0}, 0.0, 0});
+    nodes.push_back(
+        {{request.start.pose(), indexOf(request.start.v, lattice_.forwardSpeeds(), &MotionLattice::v),
+          indexOf(request.start.omega, lattice_.angularSpeeds(), &MotionLattice::omega), 0},
+         0.0,
+         0});
     open.push({0.0, 0});
     while (!open.empty()) {
       const auto [cost, id] = open.top();
@@ -73,6 +78,14 @@ class Oracle {
     double cost;
     std::size_t parent;
   };
+
+  /// Of a speed of the lattice.
+  [[nodiscard]] int indexOf(double speed, int count, double (MotionLattice::*value)(int) const) const {
+    for (int i = 0; i < count; ++i) {
+      if (std::abs((lattice_.*value)(i)-speed) < 1e-9) return i;
+    }
+    throw std::invalid_argument("the start's speed is not one of the lattice");
+  }
 
   [[nodiscard]] Key keyOf(const State& s, const PlanRequest& request) const {
     const bool timeless = world_.view().layers.empty();

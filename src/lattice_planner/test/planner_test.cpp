@@ -179,15 +179,41 @@ TEST(LatticePlanner, alwaysEndsStandingHoweverLittleItMaySearch) {
   }
 }
 
+// However hard the task: no more memory than states were allowed, and a plan that ends standing and says that
+// it was cut short.
 TEST(LatticePlanner, staysWithinItsMemory) {
-  PlannerParams params = defaults();
-  params.max_states = 2000;
-  LatticePlanner small(params);
-  World world = World::room(6.0, 6.0);
-  world.paintStatic(3.0, 3.0, 1.5, sarn::kLethalObstacle);
-  const PlanResult result = small.plan(request({0.5, 3.0, 3.0}, {5.5, 3.0, 3.0}), world.view());
-  EXPECT_TRUE(isDrivable(result.status));
-  EXPECT_LT(result.generated, 40000U);
+  constexpr std::size_t kBytesAState = 150;   // see max_states
+  constexpr std::size_t kOverhead = 300'000;  // [bytes] of an empty table, and of the last expansion's states
+  for (const int states : {2000, 20000, 60000}) {
+    PlannerParams params = defaults();
+    params.max_states = states;
+    params.improvement_effort = 0.0;  // on and on
+    LatticePlanner small(params);
+    World world = World::room(6.0, 6.0);
+    world.paintStatic(3.0, 3.0, 1.5, sarn::kLethalObstacle);
+    world.addLayers(20, 0.5);
+    world.walk(3.0, 0.8, 0.0, 0.3);
+    const PlanRequest task = request({0.5, 3.0, 3.0}, {5.5, 3.0, 3.0});
+    for (int again = 0; again < 2; ++again) {  // and it does not grow from plan to plan
+      const PlanResult result = small.plan(task, world.view());
+      EXPECT_TRUE(isDrivable(result.status)) << states;
+      EXPECT_TRUE(result.timed_out) << states;
+      EXPECT_EQ(result.trajectory.points.back().v, 0.0) << states;
+      EXPECT_GT(small.memory(), 60 * static_cast<std::size_t>(states)) << "or the limit was not reached";
+      EXPECT_LT(small.memory(), kBytesAState * static_cast<std::size_t>(states) + kOverhead) << states;
+    }
+  }
+}
+
+TEST(LatticePlanner, saysNoPathWhereNothingKeepsItFromTheWall) {
+  LatticePlanner& planner = testing::planner();
+  const World world = World::room(2.0, 2.0);
+  PlanRequest task = request({1.9, 1.0, 0.0}, {0.5, 1.0, 0.0});
+  task.start.v = 0.5;
+  const PlanResult result = planner.plan(task, world.view());
+  EXPECT_EQ(result.status, PlanStatus::kNoPath);
+  ASSERT_FALSE(result.trajectory.empty());
+  EXPECT_EQ(result.trajectory.points.back().v, 0.0);
 }
 
 TEST(LatticePlanner, startsFromSpeedsOffTheLattice) {

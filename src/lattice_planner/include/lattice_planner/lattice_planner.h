@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "lattice_planner/plan_types.h"
@@ -37,6 +38,8 @@ class LatticePlanner {
   [[nodiscard]] PlanResult plan(const PlanRequest& request, const sarn::TimedCostmapView& costmap);
 
   [[nodiscard]] const PlannerParams& params() const { return params_; }
+  /// [bytes] that the states of the searches so far have grown to.
+  [[nodiscard]] std::size_t memory() const;
 
  private:
   PlannerParams params_;

@@ -61,7 +61,7 @@ struct PlannerParams {
   int promising_expansions = 0;
   int hurry_after = 3000;     // [expansions] without a plan until heuristic_weight rises; 0: never
   int max_expansions = 0;     // 0: only time limits; else a bound that gives the same answer on any machine
-  int max_states = 1000000;   // memory bound: about 90 bytes each
+  int max_states = 1000000;   // memory bound: at most 150 bytes each
   double table_radius = 1.0;  // [m] of the obstacle-free cost table around the goal; 0: no table
   double table_resolution = 0.1;  // [m]
   int table_headings = 48;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace lattice_planner {
@@ -33,8 +34,8 @@ struct SearchState {
 /// than the search has grown to: what is looked at at random should stay in the processor's cache.
 class StatePool {
  public:
-  /// Forgets all states.
-  void reset();
+  /// Forgets all states; no more than `expected` will come, or few.
+  void reset(std::size_t expected = std::numeric_limits<std::size_t>::max());
   [[nodiscard]] std::size_t size() const { return states_.size(); }
   [[nodiscard]] SearchState& operator[](StateId id) { return states_[id]; }
   [[nodiscard]] const SearchState& operator[](StateId id) const { return states_[id]; }
@@ -74,6 +75,7 @@ class StatePool {
   std::vector<Slot> moving_;            // while the table grows
   std::size_t mask_ = kFirstSlots - 1;  // slots in use, less one
   std::size_t used_ = 0;
+  std::size_t expected_ = std::numeric_limits<std::size_t>::max();
   std::uint32_t epoch_ = 1;
 };
 
