@@ -44,14 +44,14 @@ ScanBeams selectBeams(const PlanarScan& scan, const sarn::Pose2D& base_from_sens
   if (!scan.ranges.empty()) {
     result.coverage = static_cast<double>(usable.size()) / static_cast<double>(scan.ranges.size());
   }
-  const auto directionOf = [&](std::size_t i) {
+  const auto direction_of = [&](std::size_t i) {
     const double angle = base_from_sensor.theta + scan.angle_min +
                          (static_cast<double>(i) + limits.beam_offset) * scan.angle_increment;
     return Eigen::Vector2d(std::cos(angle), std::sin(angle));
   };
-  for (const std::size_t i : evenly(silent, limits.max_silent)) result.silent.push_back(directionOf(i));
+  for (const std::size_t i : evenly(silent, limits.max_silent)) result.silent.push_back(direction_of(i));
   for (const std::size_t i : evenly(usable, limits.max_beams)) {
-    const Eigen::Vector2d direction = directionOf(i);
+    const Eigen::Vector2d direction = direction_of(i);
     const auto measured = static_cast<double>(scan.ranges[i]);
     const double range = measured + limits.range_bias * measured * measured;
     result.beams.push_back({result.origin + range * direction, direction, range});
