@@ -10,7 +10,8 @@ namespace {
 constexpr double kFall = 0.75;  // of what the weight is above 1, with each better plan
 constexpr double kHurry = 1.5;
 constexpr double kHurriedWeight = 5.0;
-constexpr double kPromising = 0.95;   // a guess of so small a share of the plan's cost
+constexpr double kPromising = 0.954;  // a guess of so small a share of the plan's cost is worth more work
+constexpr double kContent = 0.96;     // until it is so large
 constexpr std::size_t kPatience = 3;  // times the work until then
 constexpr std::size_t kLooks = 8;     // while the work doubles
 
@@ -41,11 +42,12 @@ void SearchEffort::planFound(bool first) {
 }
 
 bool SearchEffort::goesOn(double guess) {
-  if (most_expansions_ == 0) {
+  const bool begins = most_expansions_ == 0;
+  if (begins) {
     most_expansions_ =
         std::min(kPatience * expansions_, static_cast<std::size_t>(params_.promising_expansions));
   }
-  if (guess >= kPromising || expansions_ >= most_expansions_) return false;
+  if (guess >= (begins ? kPromising : kContent) || expansions_ >= most_expansions_) return false;
   enough_expansions_ = std::min(most_expansions_, expansions_ + expansions_ / kLooks + 1);
   return true;
 }
