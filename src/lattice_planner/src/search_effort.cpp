@@ -10,7 +10,7 @@ namespace {
 constexpr double kFall = 0.75;  // of what the weight is above 1, with each better plan
 constexpr double kHurry = 1.5;
 constexpr double kHurriedWeight = 5.0;
-constexpr double kPromising = 0.954;  // a guess of so small a share of the plan's cost is worth more work
+constexpr double kPromising = 0.95;   // a guess of so small a share of the plan's cost is worth more work
 constexpr double kContent = 0.96;     // until it is so large
 constexpr std::size_t kPatience = 3;  // times the work until then
 constexpr std::size_t kLooks = 8;     // while the work doubles
