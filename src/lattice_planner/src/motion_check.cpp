@@ -53,17 +53,17 @@ bool MotionCheck::advance(const SearchState& from, const MotionPrimitive& action
   next.x = from.x + c * end.x - s * end.y;
   next.y = from.y + s * end.x + c * end.y;
   const sarn::GridGeometry& g = task_.costmap.geometry;
+  const auto cell = g.cellAt(next.x, next.y);  // a start of any speed may land beyond all indices
   next.g = from.g + static_cast<double>(action.base_cost);
-  if (task_.params.charge_cells) {
-    next.g +=
-        cellsInsteadOfLength(g.cellAtUnbounded(from.x, from.y), g.cellAtUnbounded(next.x, next.y), action);
+  if (cell && task_.params.charge_cells) {
+    next.g += cellsInsteadOfLength(g.cellAtUnbounded(from.x, from.y), *cell, action);
   }
   next.theta = sarn::wrapAngle(from.theta + action.dtheta);
   next.v = action.v;
   next.omega = action.omega;
   next.step = from.step + 1;
   next.escaping = from.escaping;
-  return g.cellAt(next.x, next.y).has_value();
+  return cell.has_value();
 }
 
 /// What the octile distance between two cells costs more than the action's length.

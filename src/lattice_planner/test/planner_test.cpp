@@ -79,6 +79,19 @@ TEST(LatticePlanner, tellsWhenTheFirstPlanWasThere) {
   EXPECT_EQ(planner().plan(request({0.5, 0.5, 0.0}, {9.0, 0.5, 0.0}), world.view()).first_plan_time, 0.0);
 }
 
+// Found by the fuzz target: the place after the first action had no index.
+TEST(LatticePlanner, answersAStartOfAnySpeedWhereCellsAreCharged) {
+  const World world = World::room(4.0, 4.0);
+  PlannerParams params;
+  params.charge_cells = true;
+  LatticePlanner charging(params);
+  for (const double v : {1e12, -1e12, 1e300}) {
+    PlanRequest task = request({0.5, 0.5, 0.0}, {3.5, 3.5, 0.0});
+    task.start.v = v;
+    EXPECT_FALSE(isDrivable(charging.plan(task, world.view()).status)) << v;
+  }
+}
+
 TEST(LatticePlanner, standsStillWhenItIsAtTheGoal) {
   const World world = World::room(1.0, 1.0);
   const PlanResult result = planner().plan(request({0.5, 0.5, 0.0}, {0.55, 0.5, 0.1}), world.view());
