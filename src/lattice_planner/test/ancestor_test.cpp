@@ -35,18 +35,6 @@ PlannerParams defaults() {
   return params;
 }
 
-/// A corridor along x with a wall across it that leaves a doorway of 0.5 m in the middle.
-World doorway() {
-  World world = World::room(4.0, 1.5);
-  for (double y = 0.025; y < 1.5; y += 0.05) {
-    if (y > 0.5 && y < 1.0) continue;
-    for (double x = 1.925; x < 2.1; x += 0.05) {
-      world.setStatic(*world.view().geometry.cellAt(x, y), sarn::kLethalObstacle);
-    }
-  }
-  return world;
-}
-
 // Faults 1 and 8: the first way that is generated wins, the goal is accepted when it is generated, and costs
 // are counted by samples. On the ancestor's own lattice and cost, searched to the end, nothing is dearer than
 // the textbook's plan; the ancestor's is.

@@ -146,4 +146,16 @@ inline std::vector<std::string> faults(const sarn::TimedTrajectory& trajectory, 
   return all;
 }
 
+/// A corridor along x with a wall across it that leaves a doorway of 0.5 m in the middle.
+inline World doorway() {
+  World world = World::room(4.0, 1.5);
+  for (double y = 0.025; y < 1.5; y += 0.05) {
+    if (y > 0.5 && y < 1.0) continue;
+    for (double x = 1.925; x < 2.1; x += 0.05) {
+      world.setStatic(*world.view().geometry.cellAt(x, y), sarn::kLethalObstacle);
+    }
+  }
+  return world;
+}
+
 }  // namespace lattice_planner::testing
